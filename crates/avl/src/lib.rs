@@ -1,0 +1,1 @@
+//! AVL geometry, mass, run-case and output files as plain structs.

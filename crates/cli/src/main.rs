@@ -1,0 +1,3 @@
+//! The command `albatross`.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Non-linear flight dynamics of the flexible aircraft: trim, linearisation, simulation.

@@ -1,0 +1,1 @@
+//! Linear time-invariant systems: state space, modes, frequency response, simulation.

@@ -1,0 +1,1 @@
+//! Modal basis on the load reference axis: mean axes, interpolation, mode classes.

@@ -1,0 +1,1 @@
+//! Balancing, eigenproblems, splines, least squares, integration and special functions.

@@ -1,0 +1,1 @@
+//! Tables (Markdown, CSV, JSON) and SVG plots from result structs.

@@ -1,0 +1,1 @@
+//! Incremental unsteady strip aerodynamics and flutter.
