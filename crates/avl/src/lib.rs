@@ -1,1 +1,10 @@
 //! AVL geometry, mass, run-case and output files as plain structs.
+
+mod error;
+
+pub mod geometry;
+pub mod mass;
+pub mod results;
+pub mod run;
+
+pub use error::{AvlError, Diagnostic, Location};
