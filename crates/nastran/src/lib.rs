@@ -1,1 +1,13 @@
 //! Nastran decks (.bdf) and SOL 103 results (.f06) as plain structs.
+
+pub mod deck;
+mod error;
+pub mod frames;
+pub mod number;
+mod results;
+
+pub use deck::Deck;
+pub use error::{Diagnostic, Error, Severity, refuse_errors};
+pub use results::{
+    Dialect, EigenvalueTable, Eigenvector, EigenvectorRow, GridPointWeight, ModalResults, PointKind, RealMode,
+};

@@ -1,0 +1,57 @@
+//! Where a card stood: file and line, kept beside the deck so that later stages can name it in their errors.
+
+use std::sync::Arc;
+
+use super::Id;
+
+/// A place in a file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Origin {
+    /// File as it was named to the reader or in the INCLUDE statement.
+    pub file: Arc<str>,
+    /// Line, from 1.
+    pub line: u32,
+}
+
+impl std::fmt::Display for Origin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
+}
+
+/// Places of all numbered cards of a deck. Two decks that say the same from different places are equal, so this
+/// type compares equal to any other.
+#[derive(Debug, Clone, Default)]
+pub struct Origins {
+    files: Vec<Arc<str>>,
+    /// (card name, number, file index, line), sorted once reading ends.
+    places: Vec<(&'static str, Id, u32, u32)>,
+}
+
+impl PartialEq for Origins {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Origins {
+    pub(crate) fn new(files: Vec<Arc<str>>, mut places: Vec<(&'static str, Id, u32, u32)>) -> Self {
+        places.sort_unstable();
+        Self { files, places }
+    }
+
+    /// Where the card `name` (such as `"CBAR"`) with number `id` stands.
+    #[must_use]
+    pub fn of(&self, name: &str, id: Id) -> Option<Origin> {
+        let at = self.places.partition_point(|p| (p.0, p.1) < (name, id));
+        let &(found, number, file, line) = self.places.get(at)?;
+        if (found, number) != (name, id) {
+            return None;
+        }
+        let file = self.files.get(usize::try_from(file).ok()?)?;
+        Some(Origin {
+            file: Arc::clone(file),
+            line,
+        })
+    }
+}
