@@ -1,1 +1,84 @@
-//! Incremental unsteady strip aerodynamics and flutter.
+//! Incremental unsteady strip aerodynamics of a flexible aircraft, and its flutter.
+//!
+//! # The problem
+//! A structure moves in a few mode shapes; on each strip of its lifting surfaces this is a plunge `phi` and a nose-up
+//! rotation `gamma` of the load reference axis per unit of each mode. What forces does the air return on the modes,
+//! with the memory of the wake, and how does the whole behave?
+//!
+//! # The equations
+//! With `w = V gamma.eta - phi_34.etad` the downwash at the three-quarter chord, each strip of chord c and width dy
+//! carries (Theodorsen 1935, Jones 1940)
+//!
+//! ```text
+//! circulatory lift      1/2 rho V c cl_alpha (w + lambda_1 + lambda_2) dy      at the aerodynamic centre
+//! lag states            lambda_i' = (2 V a_i / c) lambda_i + A_i w'
+//! apparent mass         -pi rho b^2 z_m'' dy at mid chord, pi rho b^2 V theta' dy at three-quarter chord,
+//!                       couple -pi rho b^4/8 theta'' dy
+//! ```
+//!
+//! Collected on the modes these are the paper's Eqs. 7 to 12: see [`forces`] and [`elastic`].
+//!
+//! # Inputs and outputs
+//! In: [`Strip`]s, their [`StripShapes`], a [`Structure`]. Out: [`GeneralizedForces`], [`elastic::PiMatrices`], a state
+//! matrix over `[eta, etad, lambda_1, lambda_2]`, flutter and divergence speeds.
+//!
+//! # Limits
+//! Attached flow, small motion, chordwise-rigid sections, no aerodynamic coupling between strips. The lags are those
+//! of incompressible flow; compressibility enters by the lift slopes alone.
+//!
+//! # Example
+//! A typical section, one strip with plunge and pitch, and its flutter speed:
+//!
+//! ```
+//! use albatross_strip::{flutter, section::TypicalSection};
+//! // Perry, NASA/TP-2015-218765, appendix C (units of the report).
+//! let section = TypicalSection {
+//!     mass: 31.41592653589793, static_moment: 6.283185307179586, inertia: 7.853981633974483,
+//!     plunge_stiffness: 78539.81633974482, pitch_stiffness: 78539.81633974482,
+//!     semi_chord: 1.0, axis: -0.4, cl_alpha: std::f64::consts::TAU,
+//! };
+//! let model = section.model(&albatross_strip::kernels::JONES)?;
+//! let found = flutter::exact_flutter(&model, 1.0)?.ok_or("no flutter")?;
+//! assert!((found.speed - 173.26).abs() < 0.005);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod elastic;
+pub mod flutter;
+pub mod forces;
+pub mod kernels;
+pub mod quasi_steady;
+pub mod section;
+pub mod shapes;
+pub mod slopes;
+pub mod strip;
+
+mod error;
+
+pub use elastic::{AeroelasticModel, Flow, Structure};
+pub use error::Error;
+pub use forces::{GeneralizedForces, Split};
+pub use shapes::{DihedralForm, StripShapes};
+pub use strip::{DownwashPoint, Strip, StripTheory};
+
+use albatross_numerics::Mat;
+
+/// Refuses a matrix with another number of rows than there are strips.
+fn ensure_rows(what: &'static str, matrix: &Mat<f64>, rows: usize) -> Result<(), Error> {
+    if matrix.nrows() == rows {
+        return Ok(());
+    }
+    Err(Error::Shape {
+        what,
+        expected: (rows, matrix.ncols()),
+        found: (matrix.nrows(), matrix.ncols()),
+    })
+}
+
+/// Refuses a flow quantity that is negative or not finite.
+fn ensure_finite(quantity: &'static str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(Error::BadFlow { quantity, value })
+}

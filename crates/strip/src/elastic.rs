@@ -1,0 +1,292 @@
+//! The elastic aircraft in the flow: Eqs. 10 to 12 and the state matrix of modes and lags.
+//!
+//! ```text
+//! [mu - rho Q_etadd] etadd = [-2 mu xi omega + rho V Q_etad] etad + [-mu omega^2 + rho V^2 Q_eta] eta
+//!                            + rho V Q_lambda (lambda_1 + lambda_2) + q S cbar (Q_X X + Q_u u)
+//! ```
+//!
+//! Eq. 12 is printed with `Q_eta_etadd` inside Pi_1 and Pi_2; Eq. 10 shows that `Q_eta_eta` and `Q_eta_etad` are
+//! meant, and they are used here.
+
+use crate::forces::{Downwash, GeneralizedForces, Split, downwash, generalized_forces};
+use crate::kernels::Lag;
+use crate::shapes::StripShapes;
+use crate::strip::{Strip, StripTheory};
+use crate::{Error, ensure_finite};
+use albatross_numerics::{Mat, solve};
+
+/// Structural mass, damping and stiffness in the shapes' coordinates, n x n, symmetric.
+#[derive(Debug, Clone)]
+pub struct Structure {
+    /// Mass matrix (diagonal of modal masses for normal modes) \[kg m² per unit²\].
+    pub mass: Mat<f64>,
+    /// Damping matrix \[kg m²/s per unit²\].
+    pub damping: Mat<f64>,
+    /// Stiffness matrix \[N m per unit²\].
+    pub stiffness: Mat<f64>,
+}
+
+impl Structure {
+    /// Normal modes of modal mass `mu`, frequency `omega` \[rad/s\] and damping ratio `xi`.
+    ///
+    /// # Errors
+    /// [`Error::BadMode`] for a modal mass that is not positive or a value that is not finite, [`Error::Shape`] if the
+    /// three differ in length.
+    pub fn modal(mu: &[f64], omega_rad_s: &[f64], xi: &[f64]) -> Result<Self, Error> {
+        let n = mu.len();
+        for (what, len) in [("omega", omega_rad_s.len()), ("xi", xi.len())] {
+            if len != n {
+                return Err(Error::Shape {
+                    what,
+                    expected: (n, 1),
+                    found: (len, 1),
+                });
+            }
+        }
+        for (index, ((&m, &w), &x)) in mu.iter().zip(omega_rad_s).zip(xi).enumerate() {
+            if !(m.is_finite() && m > 0.0) {
+                return Err(Error::BadMode {
+                    index,
+                    quantity: "modal mass",
+                    value: m,
+                    expected: "a positive number",
+                });
+            }
+            if !(w.is_finite() && w >= 0.0) {
+                return Err(Error::BadMode {
+                    index,
+                    quantity: "frequency",
+                    value: w,
+                    expected: "zero or more",
+                });
+            }
+            if !x.is_finite() {
+                return Err(Error::BadMode {
+                    index,
+                    quantity: "damping ratio",
+                    value: x,
+                    expected: "a number",
+                });
+            }
+        }
+        let diagonal = |f: &dyn Fn(usize) -> f64| Mat::from_fn(n, n, |i, j| if i == j { f(i) } else { 0.0 });
+        Ok(Self {
+            mass: diagonal(&|i| mu[i]),
+            damping: diagonal(&|i| 2.0 * mu[i] * xi[i] * omega_rad_s[i]),
+            stiffness: diagonal(&|i| mu[i] * omega_rad_s[i].powi(2)),
+        })
+    }
+
+    /// Number of coordinates.
+    pub fn n(&self) -> usize {
+        self.mass.nrows()
+    }
+}
+
+/// Density and speed.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Flow {
+    /// Density \[kg/m³\].
+    pub rho: f64,
+    /// True airspeed \[m/s\].
+    pub speed: f64,
+}
+
+/// A structure and the strips that move with it.
+#[derive(Debug, Clone)]
+pub struct AeroelasticModel {
+    /// The structure.
+    pub structure: Structure,
+    /// The strips.
+    pub strips: Vec<Strip>,
+    /// Shapes of the structure on the strips.
+    pub shapes: StripShapes,
+    /// Generalised forces of the shapes on themselves.
+    pub forces: GeneralizedForces,
+    /// Downwash of the shapes.
+    pub downwash: Downwash,
+    /// Lags of each strip; none makes the circulation follow the downwash at once (`C = 1`).
+    pub lags: Vec<Lag>,
+}
+
+impl AeroelasticModel {
+    /// Assembles the matrices.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the structure has another number of coordinates than there are shapes; what
+    /// [`generalized_forces`] returns; [`Error::Empty`] without strips or shapes.
+    pub fn try_new(
+        structure: Structure,
+        strips: Vec<Strip>,
+        shapes: StripShapes,
+        theory: &StripTheory,
+        split: Split,
+        lags: &[Lag],
+    ) -> Result<Self, Error> {
+        if strips.is_empty() {
+            return Err(Error::Empty { what: "strips" });
+        }
+        if shapes.n_shapes() == 0 {
+            return Err(Error::Empty { what: "mode shapes" });
+        }
+        if structure.n() != shapes.n_shapes() {
+            return Err(Error::Shape {
+                what: "structure",
+                expected: (shapes.n_shapes(), shapes.n_shapes()),
+                found: (structure.n(), structure.n()),
+            });
+        }
+        let forces = generalized_forces(&strips, &shapes, &shapes, theory, split)?;
+        let downwash = downwash(&strips, &shapes, theory)?;
+        Ok(Self {
+            structure,
+            strips,
+            shapes,
+            forces,
+            downwash,
+            lags: lags.to_vec(),
+        })
+    }
+
+    /// Number of elastic coordinates.
+    pub fn n_modes(&self) -> usize {
+        self.structure.n()
+    }
+
+    /// `mu - rho Q_etadd`: structure and apparent mass.
+    pub fn mass(&self, rho: f64) -> Mat<f64> {
+        &self.structure.mass - rho * &self.forces.eta_etadd_nc
+    }
+
+    /// `K - rho V^2 Q_eta`: the static aeroelastic stiffness.
+    pub fn static_stiffness(&self, flow: Flow) -> Mat<f64> {
+        &self.structure.stiffness - flow.rho * flow.speed.powi(2) * self.forces.eta_eta()
+    }
+
+    /// The rates of decay of the lag states, lag by lag, strips within: `2 V a_i / c` \[1/s\].
+    pub fn lag_rates(&self, speed: f64) -> Vec<f64> {
+        self.lags
+            .iter()
+            .flat_map(|lag| self.strips.iter().map(move |s| 2.0 * speed * lag.rate / s.chord))
+            .collect()
+    }
+}
+
+/// The matrices of Eq. 11.
+#[derive(Debug, Clone)]
+pub struct PiMatrices {
+    /// `Pi_1`, on `eta`, n x n.
+    pub pi1: Mat<f64>,
+    /// `Pi_2`, on `etad`, n x n.
+    pub pi2: Mat<f64>,
+    /// `Pi_3`, on the sum of lags of each strip, n x strips.
+    pub pi3: Mat<f64>,
+    /// `Pi_4`, on the rigid-body variables, n x variables.
+    pub pi4: Mat<f64>,
+    /// `Pi_5`, on the controls, n x controls.
+    pub pi5: Mat<f64>,
+}
+
+/// Eq. 12 with the indices corrected (see the module text).
+///
+/// `q_x` and `q_u` are the quasi-steady matrices of [`crate::quasi_steady`], shapes x variables.
+///
+/// # Errors
+/// [`Error::Numerics`] if `mu - rho Q_etadd` is singular.
+pub fn pi_matrices(
+    model: &AeroelasticModel,
+    flow: Flow,
+    reference: &crate::quasi_steady::ReferenceShape,
+    q_x: &Mat<f64>,
+    q_u: &Mat<f64>,
+) -> Result<PiMatrices, Error> {
+    let Flow { rho, speed } = flow;
+    let mass = model.mass(rho);
+    let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
+    let dynamic_pressure = 0.5 * rho * speed * speed * reference.area * reference.chord;
+    Ok(PiMatrices {
+        pi1: per_mass(-model.static_stiffness(flow))?,
+        pi2: per_mass(rho * speed * model.forces.eta_etad() - &model.structure.damping)?,
+        pi3: per_mass(rho * speed * &model.forces.eta_lambda_c)?,
+        pi4: per_mass(dynamic_pressure * q_x)?,
+        pi5: per_mass(dynamic_pressure * q_u)?,
+    })
+}
+
+/// State matrix of `[eta, etad, lambda_1, lambda_2, ...]`, lags strip by strip within each.
+///
+/// # Errors
+/// [`Error::Numerics`] if `mu - rho Q_etadd` is singular, [`Error::BadFlow`] for a density or speed that is negative
+/// or not finite.
+pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    ensure_finite("density", flow.rho)?;
+    ensure_finite("speed", flow.speed)?;
+    let Flow { rho, speed } = flow;
+    let (n, n_strips) = (model.n_modes(), model.strips.len());
+    let mass = model.mass(rho);
+    let pi1 = solve::solve(mass.as_ref(), (-model.static_stiffness(flow)).as_ref())?;
+    let pi2 = solve::solve(
+        mass.as_ref(),
+        (rho * speed * model.forces.eta_etad() - &model.structure.damping).as_ref(),
+    )?;
+    let pi3 = solve::solve(mass.as_ref(), (rho * speed * &model.forces.eta_lambda_c).as_ref())?;
+
+    // wd = V w_eta etad + w_etad etadd, with etadd from Eq. 11.
+    let (w_eta, w_etad) = (&model.downwash.w_eta, &model.downwash.w_etad);
+    let rate_by_eta = w_etad * &pi1;
+    let rate_by_etad = speed * w_eta + w_etad * &pi2;
+    let rate_by_lag = w_etad * &pi3;
+
+    let n_states = 2 * n + model.lags.len() * n_strips;
+    let mut a = Mat::zeros(n_states, n_states);
+    for k in 0..n {
+        a[(k, n + k)] = 1.0;
+    }
+    a.as_mut().submatrix_mut(n, 0, n, n).copy_from(&pi1);
+    a.as_mut().submatrix_mut(n, n, n, n).copy_from(&pi2);
+    for (i, lag) in model.lags.iter().enumerate() {
+        let row = 2 * n + i * n_strips;
+        a.as_mut().submatrix_mut(n, row, n, n_strips).copy_from(&pi3);
+        a.as_mut()
+            .submatrix_mut(row, 0, n_strips, n)
+            .copy_from(lag.gain * &rate_by_eta);
+        a.as_mut()
+            .submatrix_mut(row, n, n_strips, n)
+            .copy_from(lag.gain * &rate_by_etad);
+        for other in 0..model.lags.len() {
+            let column = 2 * n + other * n_strips;
+            a.as_mut()
+                .submatrix_mut(row, column, n_strips, n_strips)
+                .copy_from(lag.gain * &rate_by_lag);
+        }
+    }
+    for (j, rate) in model.lag_rates(speed).into_iter().enumerate() {
+        a[(2 * n + j, 2 * n + j)] += rate;
+    }
+    Ok(a)
+}
+
+/// State matrix of `[eta, etad]` for quasi-steady aerodynamics: circulation without lag and no apparent mass.
+///
+/// # Errors
+/// As [`state_matrix`].
+pub fn quasi_steady_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    ensure_finite("density", flow.rho)?;
+    ensure_finite("speed", flow.speed)?;
+    let Flow { rho, speed } = flow;
+    let n = model.n_modes();
+    let mass = model.structure.mass.as_ref();
+    let stiffness = rho * speed * speed * &model.forces.eta_eta_c - &model.structure.stiffness;
+    let damping = rho * speed * &model.forces.eta_etad_c - &model.structure.damping;
+    let mut a = Mat::zeros(2 * n, 2 * n);
+    for k in 0..n {
+        a[(k, n + k)] = 1.0;
+    }
+    a.as_mut()
+        .submatrix_mut(n, 0, n, n)
+        .copy_from(&solve::solve(mass, stiffness.as_ref())?);
+    a.as_mut()
+        .submatrix_mut(n, n, n, n)
+        .copy_from(&solve::solve(mass, damping.as_ref())?);
+    Ok(a)
+}

@@ -1,0 +1,88 @@
+//! What can go wrong.
+
+/// Errors of strip aerodynamics.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A strip has a number that the theory cannot use.
+    #[error("strip {}: {quantity} is {value}, expected {expected}; correct the strip table", index + 1)]
+    BadStrip {
+        /// Index of the strip, from 0.
+        index: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// A mode has a number that the theory cannot use.
+    #[error("mode {}: {quantity} is {value}, expected {expected}; correct the modal data", index + 1)]
+    BadMode {
+        /// Index of the mode, from 0.
+        index: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// Density or speed is unusable.
+    #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point")]
+    BadFlow {
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Two arrays do not fit together.
+    #[error("{what} is {} x {}, expected {} x {}", found.0, found.1, expected.0, expected.1)]
+    Shape {
+        /// Which array.
+        what: &'static str,
+        /// Rows and columns wanted.
+        expected: (usize, usize),
+        /// Rows and columns found.
+        found: (usize, usize),
+    },
+    /// An entry is NaN or infinite.
+    #[error("{what}: entry in row {}, column {} is not a finite number", row + 1, column + 1)]
+    NotFinite {
+        /// Which array.
+        what: &'static str,
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+    },
+    /// Nothing to work on.
+    #[error("there are no {what}; at least one is needed")]
+    Empty {
+        /// What is missing.
+        what: &'static str,
+    },
+    /// Two strip tables that should describe the same strips do not.
+    #[error("{what}: {found}; expected {expected}")]
+    StripTables {
+        /// Which tables or surface.
+        what: String,
+        /// What was found.
+        found: String,
+        /// What was expected, and the cure.
+        expected: String,
+    },
+    /// A search did not converge.
+    #[error("{what} did not converge after {iterations} iterations (last step {last_step:e})")]
+    NotConverged {
+        /// The search.
+        what: &'static str,
+        /// Iterations made.
+        iterations: usize,
+        /// Size of the last step, relative.
+        last_step: f64,
+    },
+    /// A linear algebra step failed.
+    #[error(transparent)]
+    Numerics(#[from] albatross_numerics::Error),
+}
