@@ -2,8 +2,11 @@
 
 pub mod deck;
 mod error;
+pub mod f06;
 pub mod frames;
+mod lines;
 pub mod number;
+mod remarks;
 mod results;
 
 pub use deck::Deck;

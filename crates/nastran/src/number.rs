@@ -50,14 +50,14 @@ pub fn real(text: &[u8]) -> Option<f64> {
     }
     let exponent = exponent(digits.get(at..)?)?;
     let power = scale.saturating_add(exponent);
-    let magnitude = if significant <= 15 && power.unsigned_abs() <= 22 {
-        // mantissa < 10^15 < 2^53 is exact, and so is the power.
-        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-        let exact = mantissa as f64;
-        let factor = *POWERS_OF_TEN.get(usize::try_from(power.unsigned_abs()).ok()?)?;
-        if power < 0 { exact / factor } else { exact * factor }
+    let small = if significant <= 15 {
+        i64::try_from(mantissa).ok()
     } else {
-        by_standard_library(digits.get(..at)?, exponent)?
+        None
+    };
+    let magnitude = match small.and_then(|m| exact_product(m, power)) {
+        Some(value) => value,
+        None => by_standard_library(digits.get(..at)?, exponent)?,
     };
     Some(if negative { -magnitude } else { magnitude })
 }
@@ -90,10 +90,38 @@ fn exponent(text: &[u8]) -> Option<i32> {
     Some(if negative { -value } else { value })
 }
 
+/// `mantissa * 10^power` for a mantissa below 2^53 if one correctly rounded operation on exact operands gives it.
+fn exact_product(mantissa: i64, power: i32) -> Option<f64> {
+    let factor = *POWERS_OF_TEN.get(usize::try_from(power.unsigned_abs()).ok()?)?;
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    let exact = mantissa as f64;
+    Some(if power < 0 { exact / factor } else { exact * factor })
+}
+
+/// `mantissa * 10^power`, correctly rounded.
+pub(crate) fn scaled(mantissa: i32, power: i32) -> Option<f64> {
+    exact_product(i64::from(mantissa), power)
+        .or_else(|| by_standard_library(mantissa.to_string().as_bytes(), power))
+}
+
+/// The standard library's parser on the mantissa and a plain exponent, put together on the stack.
 #[cold]
 fn by_standard_library(mantissa: &[u8], exponent: i32) -> Option<f64> {
-    let text = format!("{}e{exponent}", std::str::from_utf8(mantissa).ok()?);
-    text.parse::<f64>().ok().filter(|v| v.is_finite())
+    use std::io::Write;
+    let mut buffer = [0_u8; 64];
+    let mut free = &mut buffer[..];
+    let parse = |text: &[u8]| {
+        std::str::from_utf8(text)
+            .ok()?
+            .parse::<f64>()
+            .ok()
+            .filter(|v| v.is_finite())
+    };
+    if free.write_all(mantissa).is_ok() && write!(free, "e{exponent}").is_ok() {
+        let unused = free.len();
+        return parse(buffer.get(..buffer.len() - unused)?);
+    }
+    parse(&[mantissa, format!("e{exponent}").as_bytes()].concat())
 }
 
 /// A signed integer; `None` for anything else, including reals.
