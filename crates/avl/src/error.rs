@@ -128,6 +128,18 @@ pub enum AvlError {
         /// What was to come.
         expected: String,
     },
+    /// A field that the file must hold is not there.
+    #[error("{file}:{line}: no `{field}` in the block that starts here; {cure}")]
+    Missing {
+        /// File name.
+        file: String,
+        /// First line of the block that should hold it.
+        line: usize,
+        /// Name of the field as AVL prints it.
+        field: String,
+        /// What to do.
+        cure: &'static str,
+    },
     /// A line does not have the form that its place in the file asks for.
     #[error("{at}: found `{found}`, expected {expected}")]
     Syntax {

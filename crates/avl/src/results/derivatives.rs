@@ -6,6 +6,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::RunState;
+use super::kind::{FileKind, Layout, open};
+use super::mrf;
+use super::table::{Suffix, Table};
+use crate::error::AvlError;
+use crate::source::Source;
 
 /// A coefficient of the `.st` table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -118,7 +123,74 @@ pub struct StabilityDerivatives {
     pub spiral_ratio: Option<f64>,
 }
 
+/// Prefixes of the names in an `.st` table. Upper and lower case differ: `CLa` is lift, `Cla` roll.
+const STABILITY: [(&str, Coefficient); 8] = [
+    ("CDff", Coefficient::TrefftzDrag),
+    ("CL", Coefficient::Lift),
+    ("CY", Coefficient::SideForce),
+    ("CD", Coefficient::Drag),
+    ("Cl", Coefficient::Roll),
+    ("Cm", Coefficient::Pitch),
+    ("Cn", Coefficient::Yaw),
+    ("e", Coefficient::SpanEfficiency),
+];
+
+/// The column of one variable.
+fn stability_column(table: &Table<Coefficient>, suffix: Suffix) -> Result<StabilityColumn, AvlError> {
+    Ok(StabilityColumn {
+        lift: table.require(Coefficient::Lift, suffix, "CL")?,
+        side_force: table.require(Coefficient::SideForce, suffix, "CY")?,
+        drag: table.get(Coefficient::Drag, suffix),
+        roll: table.require(Coefficient::Roll, suffix, "Cl")?,
+        pitch: table.require(Coefficient::Pitch, suffix, "Cm")?,
+        yaw: table.require(Coefficient::Yaw, suffix, "Cn")?,
+        trefftz_drag: table.get(Coefficient::TrefftzDrag, suffix),
+        span_efficiency: table.get(Coefficient::SpanEfficiency, suffix),
+    })
+}
+
+/// Neutral point and spiral ratio, where they are defined.
+fn read_footer(source: &mut Source<'_>, layout: Layout) -> Result<(Option<f64>, Option<f64>), AvlError> {
+    if layout == Layout::Mrf {
+        let neutral_point = mrf::labelled(source, "Neutral point  Xnp")?.real(0, 23, "Xnp")?;
+        let spiral = mrf::labelled(source, "Clb Cnr / Clr Cnb")?.real(0, 23, "Clb Cnr / Clr Cnb")?;
+        return Ok((mrf::defined(neutral_point), mrf::defined(spiral)));
+    }
+    let (mut neutral_point, mut spiral) = (None, None);
+    while let Some(line) = source.read() {
+        neutral_point = neutral_point.or(line.labelled_real("Xnp", 11).transpose()?);
+        spiral = spiral.or(line.labelled_real("Clb Cnr / Clr Cnb", 11).transpose()?);
+    }
+    Ok((neutral_point, spiral))
+}
+
 impl StabilityDerivatives {
+    /// Reads an `.st` file.
+    ///
+    /// # Errors
+    /// [`AvlError::WrongKind`] for another kind of file; [`AvlError::Missing`] for an absent row;
+    /// [`AvlError::Truncated`], [`AvlError::Number`], [`AvlError::Overflow`], [`AvlError::NotFinite`],
+    /// [`AvlError::Count`], [`AvlError::Syntax`] for a damaged file.
+    pub fn parse(text: &str, file: &str) -> Result<Self, AvlError> {
+        let (mut source, layout) = open(text, file, FileKind::StabilityDerivatives)?;
+        let run = RunState::read(&mut source, layout)?;
+        source.find("Stability-axis derivatives")?;
+        let table = Table::read(&mut source, layout, &STABILITY, "abpqr")?;
+        let (neutral_point_x, spiral_ratio) = read_footer(&mut source, layout)?;
+        Ok(Self {
+            alpha: stability_column(&table, Suffix::Axis('a'))?,
+            beta: stability_column(&table, Suffix::Axis('b'))?,
+            roll_rate: stability_column(&table, Suffix::Axis('p'))?,
+            pitch_rate: stability_column(&table, Suffix::Axis('q'))?,
+            yaw_rate: stability_column(&table, Suffix::Axis('r'))?,
+            controls: table.named(&run.controls, Suffix::Control, stability_column)?,
+            designs: table.named(&run.designs, Suffix::Design, stability_column)?,
+            neutral_point_x,
+            spiral_ratio,
+            run,
+        })
+    }
+
     /// All derivatives with respect to one variable.
     pub fn column(&self, variable: Variable) -> Option<&StabilityColumn> {
         match variable {
@@ -240,7 +312,51 @@ pub struct BodyDerivatives {
     pub designs: Vec<NamedColumn<BodyColumn>>,
 }
 
+/// Prefixes of the names in an `.sb` table.
+const BODY: [(&str, BodyCoefficient); 6] = [
+    ("CX", BodyCoefficient::X),
+    ("CY", BodyCoefficient::Y),
+    ("CZ", BodyCoefficient::Z),
+    ("Cl", BodyCoefficient::Roll),
+    ("Cm", BodyCoefficient::Pitch),
+    ("Cn", BodyCoefficient::Yaw),
+];
+
+/// The column of one variable.
+fn body_column(table: &Table<BodyCoefficient>, suffix: Suffix) -> Result<BodyColumn, AvlError> {
+    Ok(BodyColumn {
+        x: table.require(BodyCoefficient::X, suffix, "CX")?,
+        y: table.require(BodyCoefficient::Y, suffix, "CY")?,
+        z: table.require(BodyCoefficient::Z, suffix, "CZ")?,
+        roll: table.require(BodyCoefficient::Roll, suffix, "Cl")?,
+        pitch: table.require(BodyCoefficient::Pitch, suffix, "Cm")?,
+        yaw: table.require(BodyCoefficient::Yaw, suffix, "Cn")?,
+    })
+}
+
 impl BodyDerivatives {
+    /// Reads an `.sb` file.
+    ///
+    /// # Errors
+    /// As [`StabilityDerivatives::parse`].
+    pub fn parse(text: &str, file: &str) -> Result<Self, AvlError> {
+        let (mut source, layout) = open(text, file, FileKind::BodyDerivatives)?;
+        let run = RunState::read(&mut source, layout)?;
+        source.find("-axis derivatives")?;
+        let table = Table::read(&mut source, layout, &BODY, "uvwpqr")?;
+        Ok(Self {
+            u: body_column(&table, Suffix::Axis('u'))?,
+            v: body_column(&table, Suffix::Axis('v'))?,
+            w: body_column(&table, Suffix::Axis('w'))?,
+            p: body_column(&table, Suffix::Axis('p'))?,
+            q: body_column(&table, Suffix::Axis('q'))?,
+            r: body_column(&table, Suffix::Axis('r'))?,
+            controls: table.named(&run.controls, Suffix::Control, body_column)?,
+            designs: table.named(&run.designs, Suffix::Design, body_column)?,
+            run,
+        })
+    }
+
     /// All derivatives with respect to one variable.
     pub fn column(&self, variable: BodyVariable) -> Option<&BodyColumn> {
         match variable {

@@ -1,0 +1,5 @@
+//! Integration tests: real files, damaged files, round trips.
+
+mod support;
+
+mod results;
