@@ -1,0 +1,8 @@
+//! Closed forms, properties and published figures for linear systems.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
+
+mod frequency;
+mod models;
+mod modes;
+mod state_space;
