@@ -1,0 +1,96 @@
+//! Rigid directions that the supports of a deck leave free.
+
+use albatross_nastran::Deck;
+use albatross_nastran::deck::{Components, Id};
+use albatross_nastran::frames::Frames;
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+
+use crate::rigid::rigid_transfer;
+
+/// Which of the six rigid motions about `center` move no constrained freedom (PS of GRID, and the SPC set that case
+/// control selects for `subcase`). A half model on its plane of symmetry keeps x, z and pitch; a clamped wing keeps
+/// nothing.
+pub(crate) fn free_directions(
+    deck: &Deck,
+    frames: &Frames,
+    center: [f64; 3],
+    subcase: Option<u32>,
+) -> [bool; 6] {
+    let mut free = [true; 6];
+    let center = Vector3::from(center);
+    for (id, components) in constrained(deck, subcase) {
+        let Some(grid) = frames.grid(id) else { continue };
+        let arm = grid.position - center;
+        let motion = rigid_transfer(arm);
+        for component in components.iter() {
+            let index = usize::from(component) - 1;
+            let direction = grid.axes.column(index % 3);
+            // Rotations are pure numbers; translations due to rotation are compared with the arm.
+            let first_row = if index < 3 { 0 } else { 3 };
+            for (i, is_free) in free.iter_mut().enumerate() {
+                let moved = motion.fixed_view::<3, 1>(first_row, i).dot(&direction).abs();
+                let size = if i >= 3 && index < 3 { arm.norm() } else { 1.0 };
+                *is_free &= moved <= 1e-9 * size.max(f64::MIN_POSITIVE);
+            }
+        }
+    }
+    free
+}
+
+fn constrained(deck: &Deck, subcase: Option<u32>) -> Vec<(Id, Components)> {
+    let mut all: Vec<(Id, Components)> = deck
+        .grids
+        .values()
+        .filter(|g| !g.ps.is_empty())
+        .map(|g| (g.id, g.ps))
+        .collect();
+    let Some(set) = selected_set(deck, subcase) else {
+        return all;
+    };
+    let sets = with_added_sets(deck, set);
+    all.extend(
+        deck.spcs
+            .iter()
+            .filter(|s| sets.contains(&s.sid))
+            .map(|s| (s.point, s.components)),
+    );
+    for spc1 in deck.spc1s.iter().filter(|s| sets.contains(&s.sid)) {
+        all.extend(spc1.points.iter().map(|&p| (p, spc1.components)));
+    }
+    all
+}
+
+/// The SPC set of a subcase: its own, or the one above the first subcase. Without a subcase, the first one named.
+fn selected_set(deck: &Deck, subcase: Option<u32>) -> Option<Id> {
+    let mut current = None;
+    let mut common = None;
+    let mut own = None;
+    for line in &deck.case_control {
+        let line = line.trim().to_ascii_uppercase();
+        if let Some(number) = line.strip_prefix("SUBCASE") {
+            current = number.trim().parse::<u32>().ok();
+        } else if let Some((name, value)) = line.split_once('=')
+            && name.trim() == "SPC"
+            && let Ok(set) = value.trim().parse::<Id>()
+        {
+            if current.is_none() {
+                common = Some(set);
+            } else if own.is_none() && (subcase.is_none() || current == subcase) {
+                own = Some(set);
+            }
+        }
+    }
+    own.or(common)
+}
+
+fn with_added_sets(deck: &Deck, set: Id) -> BTreeSet<Id> {
+    let mut sets = BTreeSet::from([set]);
+    for card in deck.raw.iter().filter(|c| c.name == "SPCADD") {
+        let mut numbers = card.fields.iter().filter_map(|f| f.parse::<Id>().ok());
+        if numbers.next() == Some(set) {
+            sets.extend(numbers);
+        }
+    }
+    sets
+}

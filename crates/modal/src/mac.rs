@@ -1,0 +1,118 @@
+//! Modal assurance criterion: do two analyses describe the same modes?
+//!
+//! `MAC(k, l) = (phi_k^T M phi_l)^2 / (phi_k^T M phi_k  phi_l^T M phi_l)` (Allemang and Brown, IMAC 1982, with the
+//! mass matrix as weight). It does not depend on sign and normalisation. Modes of a pair with equal frequency may
+//! be turned against each other; compare the pair as a whole then.
+
+use albatross_numerics::{Mat, MatRef};
+use std::collections::BTreeMap;
+
+use crate::basis::ModalBasis;
+use crate::error::Error;
+use crate::mass_matrix::dot;
+
+/// MAC of every mode of `a` (rows) with every mode of `b` (columns), on the grids that both have.
+///
+/// The weight is the mass matrix of `a`, or that of `b`, if its grids are all common; otherwise the MAC is plain and
+/// of the translations alone, since rotations have another unit.
+///
+/// # Errors
+/// [`Error::NoCommonGrids`].
+pub fn mac(a: &ModalBasis, b: &ModalBasis) -> Result<Mat<f64>, Error> {
+    let index_b: BTreeMap<_, _> = b.grids.iter().enumerate().map(|(i, g)| (g.id, i)).collect();
+    let common: Vec<(usize, usize)> = a
+        .grids
+        .iter()
+        .enumerate()
+        .filter_map(|(i, g)| Some((i, *index_b.get(&g.id)?)))
+        .collect();
+    if common.is_empty() {
+        return Err(Error::NoCommonGrids);
+    }
+    let all_of_a = common.len() == a.grids.len();
+    let all_of_b = common.len() == b.grids.len();
+    // Shapes of one basis in the order of the other's grids.
+    let on_a = |shape: &[[f64; 6]]| scatter(shape, a.grids.len(), common.iter().map(|&(i, j)| (j, i)));
+    let on_b = |shape: &[[f64; 6]]| scatter(shape, b.grids.len(), common.iter().copied());
+    let shapes = |basis: &ModalBasis, f: &dyn Fn(&[[f64; 6]]) -> Vec<[f64; 6]>| {
+        basis.modes.iter().map(|m| f(&m.shape)).collect::<Vec<_>>()
+    };
+    if let (Some(mass), true) = (&a.mass_matrix, all_of_a) {
+        let (left, right) = (shapes(a, &|s| s.to_vec()), shapes(b, &on_a));
+        return Ok(matrix(&left, &right, |s| mass.apply(s)));
+    }
+    if let (Some(mass), true) = (&b.mass_matrix, all_of_b) {
+        let (left, right) = (shapes(a, &on_b), shapes(b, &|s| s.to_vec()));
+        return Ok(matrix(&left, &right, |s| mass.apply(s)));
+    }
+    let translations = |s: &[[f64; 6]]| {
+        s.iter()
+            .map(|[x, y, z, ..]| [*x, *y, *z, 0.0, 0.0, 0.0])
+            .collect()
+    };
+    let restrict = |s: &[[f64; 6]]| scatter(s, a.grids.len(), common.iter().map(|&(i, _)| (i, i)));
+    Ok(matrix(&shapes(a, &restrict), &shapes(b, &on_a), translations))
+}
+
+fn scatter(shape: &[[f64; 6]], len: usize, map: impl Iterator<Item = (usize, usize)>) -> Vec<[f64; 6]> {
+    let mut out = vec![[0.0; 6]; len];
+    for (from, to) in map {
+        if let (Some(source), Some(target)) = (shape.get(from), out.get_mut(to)) {
+            *target = *source;
+        }
+    }
+    out
+}
+
+fn matrix(
+    left: &[Vec<[f64; 6]>],
+    right: &[Vec<[f64; 6]>],
+    weigh: impl Fn(&[[f64; 6]]) -> Vec<[f64; 6]>,
+) -> Mat<f64> {
+    let weighed: Vec<_> = right.iter().map(|s| weigh(s)).collect();
+    let own_left: Vec<f64> = left.iter().map(|s| dot(s, &weigh(s))).collect();
+    let own_right: Vec<f64> = right.iter().zip(&weighed).map(|(s, w)| dot(s, w)).collect();
+    Mat::from_fn(left.len(), right.len(), |k, l| {
+        let product = dot(&left[k], &weighed[l]);
+        let own = own_left[k] * own_right[l];
+        if own > 0.0 { product * product / own } else { 0.0 }
+    })
+}
+
+/// Two modes that belong together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModePair {
+    /// Row of the MAC matrix: index in the first basis.
+    pub first: usize,
+    /// Column: index in the second basis.
+    pub second: usize,
+    /// Their MAC.
+    pub mac: f64,
+}
+
+/// Pairs modes by descending MAC, each mode once, down to `least`; in the order of the first basis.
+#[must_use]
+pub fn pair_modes(mac: MatRef<'_, f64>, least: f64) -> Vec<ModePair> {
+    let mut candidates: Vec<ModePair> = (0..mac.nrows())
+        .flat_map(|first| {
+            (0..mac.ncols()).map(move |second| ModePair {
+                first,
+                second,
+                mac: mac[(first, second)],
+            })
+        })
+        .filter(|p| p.mac >= least)
+        .collect();
+    candidates.sort_by(|p, q| q.mac.total_cmp(&p.mac));
+    let (mut rows, mut columns) = (vec![false; mac.nrows()], vec![false; mac.ncols()]);
+    candidates.retain(|p| {
+        let free = !rows[p.first] && !columns[p.second];
+        if free {
+            rows[p.first] = true;
+            columns[p.second] = true;
+        }
+        free
+    });
+    candidates.sort_by_key(|p| p.first);
+    candidates
+}
