@@ -165,6 +165,32 @@ mod tests {
         assert!((wagner(1e3) - (1.0 - 1.0 / 1e3)).abs() < 2e-5);
     }
 
+    /// The branch-cut integrals by mpmath 1.3 (30 digits, Gauss-Legendre on split intervals).
+    #[test]
+    fn val_wagner_and_kuessner() {
+        let table = [
+            (0.5, 0.5556638688959744, 0.30581425531837825),
+            (1.0, 0.6006055983988055, 0.4166949600957205),
+            (2.0, 0.6692895643156859, 0.5508139671140336),
+            (5.0, 0.7882031664695167, 0.7388295094114217),
+            (10.0, 0.8750447121397658, 0.8561371876564842),
+            (20.0, 0.9366492700152336, 0.9311897123884706),
+            (50.0, 0.976763902437608, 0.9759678980830556),
+        ];
+        for (s, wagner_exact, kuessner_exact) in table {
+            assert!(
+                (wagner(s) - wagner_exact).abs() < 1e-12,
+                "{s}: {}",
+                wagner(s) - wagner_exact
+            );
+            assert!(
+                (kuessner(s) - kuessner_exact).abs() < 1e-12,
+                "{s}: {}",
+                kuessner(s) - kuessner_exact
+            );
+        }
+    }
+
     /// `C(k)` is the Fourier transform of Wagner's function: `C(k) = ik int phi exp(-iks) ds`, here for Jones's lags
     /// in closed form at a complex frequency.
     #[test]
