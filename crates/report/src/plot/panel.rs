@@ -1,0 +1,551 @@
+//! One pair of axes with its curves.
+
+use super::axis::{Axis, Extent, Ruler};
+use super::curve::{Point, Window, dots, path, visible};
+use super::palette::{Marker, Style, marker_path};
+use super::svg::{Anchor, Canvas, Label, Stroke};
+use super::text;
+use super::theme;
+use crate::error::ReportError;
+
+/// A curve or a set of points.
+///
+/// A point with a coordinate that is not finite is a gap in the curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty to leave it out. Series of one name and style share one entry.
+    pub name: String,
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates, as many as abscissae.
+    pub y: Vec<f64>,
+    /// How it is drawn.
+    pub style: Style,
+    /// A text beside each point; empty for none.
+    pub labels: Vec<String>,
+}
+
+impl Series {
+    /// A series without texts at its points.
+    pub fn new(
+        name: impl Into<String>,
+        style: Style,
+        x: impl Into<Vec<f64>>,
+        y: impl Into<Vec<f64>>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            x: x.into(),
+            y: y.into(),
+            style,
+            labels: Vec::new(),
+        }
+    }
+
+    /// This series with a text beside each point, such as a mode number.
+    #[must_use]
+    pub fn with_labels(mut self, labels: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        self.labels = labels.into_iter().map(Into::into).collect();
+        self
+    }
+
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.x.iter().copied().zip(self.y.iter().copied())
+    }
+
+    fn check(&self) -> Result<(), ReportError> {
+        let differs = |what, y| ReportError::SeriesLength {
+            series: self.name.clone(),
+            what,
+            x: self.x.len(),
+            y,
+        };
+        if self.x.len() != self.y.len() {
+            return Err(differs("y", self.y.len()));
+        }
+        if !self.labels.is_empty() && self.labels.len() != self.x.len() {
+            return Err(differs("point labels", self.labels.len()));
+        }
+        Ok(())
+    }
+}
+
+/// A straight line across a panel that marks a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guide {
+    /// Text beside the line; may be empty.
+    pub label: String,
+    /// The value marked.
+    pub value: f64,
+    /// Whether the value is an abscissa (an upright line) or an ordinate.
+    pub on_x: bool,
+}
+
+/// One ordinate with the series drawn over it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// The ordinate.
+    pub y: Axis,
+    /// Curves, from back to front.
+    pub series: Vec<Series>,
+    /// Values marked by straight lines.
+    pub guides: Vec<Guide>,
+    /// Height of the frame in pixels; chosen by the plot if `None`.
+    pub height: Option<f64>,
+    /// Damping ratios whose rays from the origin are drawn (pole maps).
+    pub(crate) damping_rays: Vec<f64>,
+}
+
+impl Panel {
+    /// An empty panel with a linear ordinate.
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self::over(Axis::new(label, unit))
+    }
+
+    /// An empty panel with the given ordinate.
+    pub fn over(y: Axis) -> Self {
+        Self {
+            y,
+            series: Vec::new(),
+            guides: Vec::new(),
+            height: None,
+            damping_rays: Vec::new(),
+        }
+    }
+
+    /// This panel with another series in front.
+    #[must_use]
+    pub fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// This panel with an upright line at an abscissa.
+    #[must_use]
+    pub fn with_guide_x(mut self, value: f64, label: impl Into<String>) -> Self {
+        self.guides.push(Guide {
+            label: label.into(),
+            value,
+            on_x: true,
+        });
+        self
+    }
+
+    /// This panel with a level line at an ordinate.
+    #[must_use]
+    pub fn with_guide_y(mut self, value: f64, label: impl Into<String>) -> Self {
+        self.guides.push(Guide {
+            label: label.into(),
+            value,
+            on_x: false,
+        });
+        self
+    }
+
+    /// This panel with a frame of the given height in pixels.
+    #[must_use]
+    pub fn with_height(mut self, pixels: f64) -> Self {
+        self.height = Some(pixels);
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ReportError> {
+        self.y.check()?;
+        self.series.iter().try_for_each(Series::check)
+    }
+
+    /// Adds what is drawn to the extents of both axes. Points outside prescribed abscissae do not count.
+    pub(crate) fn extend(&self, x_axis: &Axis, x: &mut Extent, y: &mut Extent) {
+        let shown = |value: f64| {
+            x_axis
+                .limits
+                .is_none_or(|(low, high)| (low..=high).contains(&value))
+        };
+        for (u, v) in self.series.iter().flat_map(Series::points) {
+            if let (true, Some(u), Some(v)) = (shown(u), x_axis.place(u), self.y.place(v)) {
+                x.add(u);
+                y.add(v);
+            }
+        }
+        for guide in &self.guides {
+            let (axis, extent) = if guide.on_x {
+                (x_axis, &mut *x)
+            } else {
+                (&self.y, &mut *y)
+            };
+            if let Some(place) = axis.place(guide.value) {
+                extent.add(place);
+            }
+        }
+    }
+
+    /// What had to be left out, for a note below the plot.
+    pub(crate) fn omissions(&self, x: &Axis) -> Vec<String> {
+        let note = |series: &Series| {
+            let left_out = series
+                .points()
+                .filter(|(u, v)| x.rejects(*u) || self.y.rejects(*v))
+                .count();
+            (left_out > 0).then(|| {
+                let points = if left_out == 1 {
+                    "1 point".to_owned()
+                } else {
+                    format!("{left_out} points")
+                };
+                let name = if series.name.is_empty() {
+                    "a series".to_owned()
+                } else {
+                    format!("\u{201C}{}\u{201D}", series.name)
+                };
+                format!("{points} of {name} not shown: no place on a logarithmic axis.")
+            })
+        };
+        self.series.iter().filter_map(note).collect()
+    }
+}
+
+/// A panel with everything it takes to draw it.
+pub(crate) struct Drawing<'a> {
+    pub(crate) panel: &'a Panel,
+    pub(crate) window: Window,
+    pub(crate) x: &'a Ruler,
+    pub(crate) y: &'a Ruler,
+}
+
+impl Drawing<'_> {
+    pub(crate) fn draw(&self, canvas: &mut Canvas) {
+        self.grid(canvas);
+        self.rays(canvas);
+        self.guide_lines(canvas);
+        let mut placed: Vec<Window> = Vec::new();
+        for series in &self.panel.series {
+            self.series(canvas, series);
+        }
+        if self
+            .panel
+            .series
+            .iter()
+            .all(|series| self.pixels(series).iter().all(Option::is_none))
+        {
+            let label = Label::new(
+                "no data",
+                self.window.middle(),
+                theme::LABEL,
+                Anchor::Middle,
+                theme::FAINT_INK,
+            );
+            canvas.label(&label);
+        }
+        let (corner, size) = (
+            (self.window.left, self.window.top),
+            (self.window.width, self.window.height),
+        );
+        canvas.rectangle(corner, size, "none", Some(&Stroke::solid(theme::FRAME, 0.9)));
+        self.guide_labels(canvas);
+        self.point_labels(canvas, &mut placed);
+    }
+
+    fn grid(&self, canvas: &mut Canvas) {
+        let w = &self.window;
+        canvas.open_group("grid");
+        let mut rule = |x: Option<f64>, y: Option<f64>, stroke: &Stroke<'_>| {
+            if let Some(x) = x {
+                canvas.line(w.at(x, 0.0), w.at(x, 1.0), stroke);
+            }
+            if let Some(y) = y {
+                canvas.line(w.at(0.0, y), w.at(1.0, y), stroke);
+            }
+        };
+        let minor = Stroke::solid(theme::MINOR_GRID, 0.7);
+        self.x
+            .minor()
+            .into_iter()
+            .for_each(|x| rule(Some(x), None, &minor));
+        self.y
+            .minor()
+            .into_iter()
+            .for_each(|y| rule(None, Some(y), &minor));
+        let major = Stroke::solid(theme::GRID, 0.8);
+        self.x
+            .major()
+            .into_iter()
+            .for_each(|(x, _)| rule(Some(x), None, &major));
+        self.y
+            .major()
+            .into_iter()
+            .for_each(|(y, _)| rule(None, Some(y), &major));
+        rule(None, self.y.zero(), &Stroke::solid(theme::ZERO, 0.9));
+        if !self.panel.damping_rays.is_empty() {
+            rule(self.x.zero(), None, &Stroke::solid(theme::ZERO, 0.9));
+        }
+        canvas.close_group();
+    }
+
+    fn guide_lines(&self, canvas: &mut Canvas) {
+        for guide in &self.panel.guides {
+            let ruler = if guide.on_x { self.x } else { self.y };
+            let Some(part) = ruler.fraction(guide.value).filter(|_| ruler.holds(guide.value)) else {
+                continue;
+            };
+            let (from, to) = if guide.on_x {
+                ((part, 0.0), (part, 1.0))
+            } else {
+                ((0.0, part), (1.0, part))
+            };
+            let stroke = Stroke {
+                colour: theme::GUIDE,
+                width: 1.0,
+                dashes: &[4.0, 3.0],
+            };
+            canvas.line(
+                self.window.at(from.0, from.1),
+                self.window.at(to.0, to.1),
+                &stroke,
+            );
+        }
+    }
+
+    /// Labels of guides: beside an upright line at the top, above a level line at the right.
+    fn guide_labels(&self, canvas: &mut Canvas) {
+        for guide in self.panel.guides.iter().filter(|guide| !guide.label.is_empty()) {
+            let ruler = if guide.on_x { self.x } else { self.y };
+            let Some(part) = ruler.fraction(guide.value).filter(|_| ruler.holds(guide.value)) else {
+                continue;
+            };
+            let half = 0.5 * theme::NOTE + 3.0;
+            let (at, anchor) = if guide.on_x {
+                let (x, y) = self.window.at(part, 1.0);
+                let fits = x + 5.0 + text::width(&guide.label, theme::NOTE) < self.window.right();
+                if fits {
+                    ((x + 5.0, y + half), Anchor::Start)
+                } else {
+                    ((x - 5.0, y + half), Anchor::End)
+                }
+            } else {
+                let (x, y) = self.window.at(1.0, part);
+                let above = y - half > self.window.top + half;
+                ((x - 5.0, if above { y - half } else { y + half }), Anchor::End)
+            };
+            let label = Label {
+                rimmed: true,
+                ..Label::new(&guide.label, at, theme::NOTE, anchor, theme::GUIDE)
+            };
+            canvas.label(&label);
+        }
+    }
+
+    /// Rays of constant damping ratio ζ: s = ω (-ζ ± i √(1-ζ²)).
+    fn rays(&self, canvas: &mut Canvas) {
+        let place = |re: f64, im: f64| Some(self.window.at(self.x.fraction(re)?, self.y.fraction(im)?));
+        let Some(origin) = place(0.0, 0.0) else { return };
+        let mut labels: Vec<Window> = Vec::new();
+        for zeta in self
+            .panel
+            .damping_rays
+            .iter()
+            .filter(|zeta| (-1.0..=1.0).contains(*zeta))
+        {
+            for sign in [1.0, -1.0] {
+                // A step of a thousand frames reaches the edge from wherever the origin is.
+                let Some(towards) = place(-zeta, sign * (1.0 - zeta * zeta).sqrt()) else {
+                    continue;
+                };
+                let (dx, dy) = (towards.0 - origin.0, towards.1 - origin.1);
+                let length = dx.hypot(dy);
+                if length <= 0.0 {
+                    continue;
+                }
+                let reach = 1e3 * (self.window.width + self.window.height) / length;
+                let far = (origin.0 + reach * dx, origin.1 + reach * dy);
+                let Some((from, to)) = self.window.clip(origin, far) else {
+                    continue;
+                };
+                canvas.line(
+                    from,
+                    to,
+                    &Stroke {
+                        colour: theme::GUIDE,
+                        width: 0.8,
+                        dashes: &[1.0, 2.5],
+                    },
+                );
+                let name = format!("ζ = {}", crate::number::shortest(*zeta).replace('-', "\u{2212}"));
+                self.ray_label(canvas, &name, to, &mut labels);
+            }
+        }
+    }
+
+    /// Writes a ray's damping ratio above the frame where the ray leaves at the top, or inside at the left.
+    fn ray_label(&self, canvas: &mut Canvas, name: &str, end: Point, labels: &mut Vec<Window>) {
+        let width = text::width(name, theme::NOTE);
+        let (at, anchor) = if (end.1 - self.window.top).abs() < 0.5 {
+            ((end.0, end.1 - 0.5 * theme::NOTE - 3.0), Anchor::Middle)
+        } else if (end.0 - self.window.left).abs() < 0.5 && end.1 < self.window.bottom() - theme::NOTE {
+            ((end.0 + 5.0, end.1 - 2.0), Anchor::Start)
+        } else {
+            return;
+        };
+        let left = if anchor == Anchor::Middle {
+            at.0 - 0.5 * width
+        } else {
+            at.0
+        };
+        let space = Window {
+            left,
+            top: at.1 - 0.5 * theme::NOTE,
+            width,
+            height: theme::NOTE,
+        };
+        if labels.iter().all(|other| !overlap(other, &space, 4.0)) {
+            let label = Label {
+                rimmed: true,
+                ..Label::new(name, at, theme::NOTE, anchor, theme::GUIDE)
+            };
+            canvas.label(&label);
+            labels.push(space);
+        }
+    }
+
+    /// Points of a series in pixels; `None` for gaps.
+    fn pixels(&self, series: &Series) -> Vec<Option<Point>> {
+        let place = |(x, y)| Some(self.window.at(self.x.fraction(x)?, self.y.fraction(y)?));
+        series.points().map(place).collect()
+    }
+
+    fn series(&self, canvas: &mut Canvas, series: &Series) {
+        let pixels = self.pixels(series);
+        let (style, width) = (&series.style, series.style.drawn_width());
+        let colour = style.colour.hex();
+        canvas.open_group("series");
+        if let Some(dash) = style.line {
+            let parts = visible(&pixels, &self.window);
+            let dashes = dash.lengths(width);
+            canvas.stroked(
+                &path(&parts),
+                &Stroke {
+                    colour: &colour,
+                    width,
+                    dashes: &dashes,
+                },
+            );
+            if style.marker.is_none() {
+                let dots: String = dots(&parts)
+                    .into_iter()
+                    .map(|dot| marker_path(Marker::Disc, dot, 0.9 * width))
+                    .collect();
+                canvas.filled(&dots, &colour, None);
+            }
+        }
+        if let Some(marker) = style.marker {
+            let points = marked(&pixels, &self.window, style.line.is_some());
+            draw_markers(canvas, marker, &points, &colour, width);
+        }
+        canvas.close_group();
+    }
+
+    /// Texts beside points, each on the side where it covers least.
+    fn point_labels(&self, canvas: &mut Canvas, placed: &mut Vec<Window>) {
+        let labelled: Vec<(Point, &str)> = self
+            .panel
+            .series
+            .iter()
+            .flat_map(|series| {
+                self.pixels(series)
+                    .into_iter()
+                    .zip(series.labels.iter().map(String::as_str))
+            })
+            .filter_map(|(point, label)| Some((point.filter(|p| self.window.holds(*p))?, label)))
+            .filter(|(_, label)| !label.is_empty())
+            .collect();
+        let mark = |(x, y): Point| Window {
+            left: x - 4.0,
+            top: y - 4.0,
+            width: 8.0,
+            height: 8.0,
+        };
+        let marks: Vec<Window> = labelled.iter().map(|(point, _)| mark(*point)).collect();
+        for (point, label) in labelled {
+            let (width, height) = (text::width(label, theme::NOTE), theme::NOTE);
+            let sides = [
+                (1, 0),
+                (-1, 0),
+                (0, -1),
+                (0, 1),
+                (1, -1),
+                (1, 1),
+                (-1, -1),
+                (-1, 1),
+            ];
+            let spaces = sides.map(|(right, down)| {
+                let (right, down) = (f64::from(right), f64::from(down));
+                let x = point.0 + right * (6.0 + 0.5 * width);
+                let y = point.1 + down * (6.0 + 0.5 * height);
+                Window {
+                    left: x - 0.5 * width,
+                    top: y - 0.5 * height,
+                    width,
+                    height,
+                }
+            });
+            let cost = |space: &Window| {
+                let inside = self.window.holds((space.left, space.top))
+                    && self.window.holds((space.right(), space.bottom()));
+                let covered = placed
+                    .iter()
+                    .chain(&marks)
+                    .filter(|other| overlap(other, space, 1.0))
+                    .count();
+                covered + if inside { 0 } else { 1000 }
+            };
+            let Some(best) = spaces.into_iter().min_by_key(cost) else {
+                continue;
+            };
+            canvas.label(&Label {
+                rimmed: true,
+                ..Label::new(label, best.middle(), theme::NOTE, Anchor::Middle, theme::INK)
+            });
+            placed.push(best);
+        }
+    }
+}
+
+fn overlap(a: &Window, b: &Window, gap: f64) -> bool {
+    a.left < b.right() + gap
+        && b.left < a.right() + gap
+        && a.top < b.bottom() + gap
+        && b.top < a.bottom() + gap
+}
+
+/// Points that get a marker: all that are visible and distinct, or on a line those some distance apart.
+fn marked(pixels: &[Option<Point>], window: &Window, on_line: bool) -> Vec<Point> {
+    const APART: f64 = 22.0;
+    let mut seen = std::collections::HashSet::new();
+    let mut points: Vec<Point> = Vec::new();
+    for point in pixels.iter().flatten().filter(|point| window.holds(**point)) {
+        let far = !on_line
+            || points
+                .last()
+                .is_none_or(|last| (point.0 - last.0).hypot(point.1 - last.1) >= APART);
+        // A quarter of a pixel cannot be told apart.
+        let spot = ((4.0 * point.0).round() as i64, (4.0 * point.1).round() as i64);
+        if far && seen.insert(spot) {
+            points.push(*point);
+        }
+    }
+    points
+}
+
+/// Draws one marker shape at each of the points.
+pub(crate) fn draw_markers(canvas: &mut Canvas, marker: Marker, points: &[Point], colour: &str, width: f64) {
+    let size = 3.0 + 0.4 * width;
+    let shapes: String = points
+        .iter()
+        .map(|point| marker_path(marker, *point, size))
+        .collect();
+    let stroke = Stroke::solid(colour, width.min(1.6));
+    match marker {
+        Marker::Disc => canvas.filled(&shapes, colour, None),
+        Marker::Cross | Marker::Plus => canvas.stroked(&shapes, &stroke),
+        _ => canvas.filled(&shapes, "#ffffff", Some(&stroke)),
+    }
+}
