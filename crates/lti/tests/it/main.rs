@@ -6,3 +6,4 @@ mod frequency;
 mod models;
 mod modes;
 mod state_space;
+mod tracking;
