@@ -1,5 +1,6 @@
 //! Nastran decks (.bdf) and SOL 103 results (.f06) as plain structs.
 
+pub mod bdf;
 pub mod deck;
 mod error;
 pub mod f06;

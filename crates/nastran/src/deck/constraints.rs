@@ -152,6 +152,8 @@ pub struct Eigr {
     pub estimated: Option<i32>,
     /// Desired number of roots.
     pub desired: Option<i32>,
+    /// Number of zero roots (NZ of NASTRAN-95).
+    pub zero_roots: Option<i32>,
     /// Convergence criterion (the field NASTRAN-95 and older decks use).
     pub criterion: Option<f64>,
     /// Normalisation: `MASS`, `MAX` or `POINT`; empty when blank.

@@ -40,18 +40,25 @@ impl Origins {
         Self { files, places }
     }
 
+    /// All places of the card `name` with number `id`, in file order.
+    pub fn all(&self, name: &str, id: Id) -> impl Iterator<Item = Origin> {
+        let from = self.places.partition_point(|p| (p.0, p.1) < (name, id));
+        let upto = self.places.partition_point(|p| (p.0, p.1) <= (name, id));
+        self.places
+            .get(from..upto)
+            .unwrap_or_default()
+            .iter()
+            .filter_map(|&(_, _, file, line)| {
+                Some(Origin {
+                    file: Arc::clone(self.files.get(usize::try_from(file).ok()?)?),
+                    line,
+                })
+            })
+    }
+
     /// Where the card `name` (such as `"CBAR"`) with number `id` stands.
     #[must_use]
     pub fn of(&self, name: &str, id: Id) -> Option<Origin> {
-        let at = self.places.partition_point(|p| (p.0, p.1) < (name, id));
-        let &(found, number, file, line) = self.places.get(at)?;
-        if (found, number) != (name, id) {
-            return None;
-        }
-        let file = self.files.get(usize::try_from(file).ok()?)?;
-        Some(Origin {
-            file: Arc::clone(file),
-            line,
-        })
+        self.all(name, id).next()
     }
 }

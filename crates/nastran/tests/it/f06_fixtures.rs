@@ -3,7 +3,7 @@
 use albatross_nastran::{Dialect, ModalResults, Severity, f06};
 use approx::assert_relative_eq;
 
-pub fn fixture(name: &str) -> String {
+pub(crate) fn fixture(name: &str) -> String {
     format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/{}"), name)
 }
 
