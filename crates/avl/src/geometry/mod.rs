@@ -3,6 +3,11 @@
 //! All lengths are in the file's own unit (AVL's `Lunit`), in geometry axes: x aft, y right, z up. Nothing is
 //! computed here: `SCALE`, `TRANSLATE` and `ANGLE` are stored, not applied.
 
+mod read;
+mod records;
+mod section;
+mod write;
+
 use serde::{Deserialize, Serialize};
 
 /// Content of an `.avl` file.

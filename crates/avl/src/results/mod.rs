@@ -9,6 +9,7 @@ mod kind;
 mod mrf;
 mod run_state;
 mod table;
+mod write;
 
 pub mod body;
 pub mod derivatives;

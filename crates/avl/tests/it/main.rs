@@ -1,5 +1,13 @@
 //! Integration tests: real files, damaged files, round trips.
 
+#[cfg(test)]
 mod support;
 
+#[cfg(test)]
+mod geometry;
+#[cfg(test)]
+mod inputs;
+#[cfg(test)]
 mod results;
+#[cfg(test)]
+mod round_trip;
