@@ -103,6 +103,8 @@ impl Axis {
             (exponent, "") => power_label(exponent),
             (exponent, unit) => format!("{} {unit}", power_label(exponent)),
         };
+        // A label is broken before its unit rather than within.
+        let unit = unit.replace(' ', "\u{A0}");
         match (self.label.as_str(), unit.as_str()) {
             (label, "") => label.to_owned(),
             ("", unit) => unit.to_owned(),
@@ -237,13 +239,17 @@ fn around(scale: Scale, extent: Extent, margin: Margin) -> (f64, f64) {
     let (middle, half) = (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low);
     let size = low.abs().max(high.abs());
     let resolved = half > 0.5 * UNRESOLVED * size && half > 1.0 / LARGEST;
-    let least = match scale {
-        Scale::Linear if resolved => 0.0,
-        Scale::Linear if size * LARGEST < 10.0 => 1.0,
-        Scale::Linear => 0.1 * size,
+    let custom = match scale {
+        Scale::Linear => 0.0,
         Scale::Log => 0.2,
         Scale::Degrees => 47.0,
         Scale::Decibels => 6.0,
+    };
+    let least = match custom {
+        custom if custom > UNRESOLVED * size => custom,
+        _ if resolved => 0.0,
+        _ if size * LARGEST < 10.0 => 1.0,
+        _ => 0.1 * size,
     };
     let room = match margin {
         Margin::Snug if resolved => 1.0,
@@ -305,7 +311,7 @@ mod tests {
     #[test]
     fn powers_of_ten_move_into_the_unit() {
         let ruler = fitted(&Axis::new("M_{x}", "N m"), &[0.0, 2.4e6], Margin::Airy);
-        assert_eq!(ruler.title(), "M_{x} (10^{6} N m)");
+        assert_eq!(ruler.title(), "M_{x} (10^{6}\u{A0}N\u{A0}m)");
         assert_eq!(Axis::new("n_{z}", "").title(-3), "n_{z} (10^{\u{2212}3})");
     }
 

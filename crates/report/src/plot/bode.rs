@@ -305,9 +305,9 @@ mod tests {
 
     #[test]
     fn a_folded_phase_has_gaps_at_its_jumps() {
-        let series = wrapped(&curve(&[-150.0, -200.0, -390.0]));
+        let series = wrapped(&curve(&[-150.0, -200.0, -380.0]));
         assert_eq!(series.y.len(), 4);
-        assert_eq!((series.y[0], series.y[2], series.y[3]), (-150.0, 160.0, -30.0));
+        assert_eq!((series.y[0], series.y[2], series.y[3]), (-150.0, 160.0, -20.0));
         assert!(series.y[1].is_nan());
     }
 

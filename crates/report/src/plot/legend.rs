@@ -8,6 +8,8 @@ use super::theme::{INK, LEGEND, LINE};
 
 /// Length of the piece of line shown for a series: at least two periods of every dash pattern.
 const SAMPLE: f64 = 36.0;
+/// Room for a marker where no series has a line.
+const MARKER: f64 = 12.0;
 /// Space between the sample and its name.
 const GAP: f64 = 7.0;
 /// Space between entries.
@@ -16,11 +18,13 @@ const BETWEEN: f64 = 22.0;
 struct Entry {
     lines: Vec<String>,
     style: Style,
+    /// Room for line or marker, the same for all entries.
+    sample: f64,
 }
 
 impl Entry {
     fn width(&self) -> f64 {
-        SAMPLE
+        self.sample
             + GAP
             + self
                 .lines
@@ -53,12 +57,18 @@ impl Legend {
                 known.push((series.name.as_str(), series.style));
             }
         }
-        let room = (width - SAMPLE - GAP).max(40.0);
+        let sample = if known.iter().any(|(_, style)| style.line.is_some()) {
+            SAMPLE
+        } else {
+            MARKER
+        };
+        let room = (width - sample - GAP).max(40.0);
         let entries: Vec<Entry> = known
             .into_iter()
             .map(|(name, style)| Entry {
                 lines: text::wrap(name, LEGEND, room),
                 style,
+                sample,
             })
             .collect();
         let widths: Vec<f64> = entries.iter().map(Entry::width).collect();
@@ -135,7 +145,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, x: f64, top: f64) {
         let dashes = dash.lengths(width);
         canvas.line(
             (x, y),
-            (x + SAMPLE, y),
+            (x + entry.sample, y),
             &Stroke {
                 colour: &colour,
                 width,
@@ -144,10 +154,10 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, x: f64, top: f64) {
         );
     }
     if let Some(marker) = entry.style.marker {
-        draw_markers(canvas, marker, &[(x + 0.5 * SAMPLE, y)], &colour, width);
+        draw_markers(canvas, marker, &[(x + 0.5 * entry.sample, y)], &colour, width);
     }
     for (i, line) in entry.lines.iter().enumerate() {
-        let at = (x + SAMPLE + GAP, y + i as f64 * LEGEND * LINE);
+        let at = (x + entry.sample + GAP, y + i as f64 * LEGEND * LINE);
         canvas.label(&Label::new(line, at, LEGEND, Anchor::Start, INK));
     }
 }

@@ -217,7 +217,11 @@ impl Drawing<'_> {
         self.grid(canvas);
         self.rays(canvas);
         self.guide_lines(canvas);
-        let mut placed: Vec<Window> = Vec::new();
+        let (corner, size) = (
+            (self.window.left, self.window.top),
+            (self.window.width, self.window.height),
+        );
+        canvas.rectangle(corner, size, "none", Some(&Stroke::solid(theme::FRAME, 0.9)));
         for series in &self.panel.series {
             self.series(canvas, series);
         }
@@ -236,13 +240,8 @@ impl Drawing<'_> {
             );
             canvas.label(&label);
         }
-        let (corner, size) = (
-            (self.window.left, self.window.top),
-            (self.window.width, self.window.height),
-        );
-        canvas.rectangle(corner, size, "none", Some(&Stroke::solid(theme::FRAME, 0.9)));
         self.guide_labels(canvas);
-        self.point_labels(canvas, &mut placed);
+        self.point_labels(canvas);
     }
 
     fn grid(&self, canvas: &mut Canvas) {
@@ -370,18 +369,22 @@ impl Drawing<'_> {
                     },
                 );
                 let name = format!("ζ = {}", crate::number::shortest(*zeta).replace('-', "\u{2212}"));
-                self.ray_label(canvas, &name, to, &mut labels);
+                self.ray_label(canvas, &name, to, sign, &mut labels);
             }
         }
     }
 
     /// Writes a ray's damping ratio above the frame where the ray leaves at the top, or inside at the left.
-    fn ray_label(&self, canvas: &mut Canvas, name: &str, end: Point, labels: &mut Vec<Window>) {
+    fn ray_label(&self, canvas: &mut Canvas, name: &str, end: Point, upper: f64, labels: &mut Vec<Window>) {
         let width = text::width(name, theme::NOTE);
         let (at, anchor) = if (end.1 - self.window.top).abs() < 0.5 {
             ((end.0, end.1 - 0.5 * theme::NOTE - 3.0), Anchor::Middle)
-        } else if (end.0 - self.window.left).abs() < 0.5 && end.1 < self.window.bottom() - theme::NOTE {
-            ((end.0 + 5.0, end.1 - 2.0), Anchor::Start)
+        } else if (end.0 - self.window.left).abs() < 0.5 {
+            // On the side of the ray that widens towards the right.
+            (
+                (end.0 + 5.0, end.1 - upper * (0.5 * theme::NOTE + 2.0)),
+                Anchor::Start,
+            )
         } else {
             return;
         };
@@ -396,7 +399,10 @@ impl Drawing<'_> {
             width,
             height: theme::NOTE,
         };
-        if labels.iter().all(|other| !overlap(other, &space, 4.0)) {
+        let inside = anchor == Anchor::Middle
+            || (self.window.holds((space.left, space.top))
+                && self.window.holds((space.right(), space.bottom())));
+        if inside && labels.iter().all(|other| !overlap(other, &space, 4.0)) {
             let label = Label {
                 rimmed: true,
                 ..Label::new(name, at, theme::NOTE, anchor, theme::GUIDE)
@@ -431,7 +437,7 @@ impl Drawing<'_> {
             if style.marker.is_none() {
                 let dots: String = dots(&parts)
                     .into_iter()
-                    .map(|dot| marker_path(Marker::Disc, dot, 0.9 * width))
+                    .map(|dot| marker_path(Marker::Disc, dot, 1.6 * width))
                     .collect();
                 canvas.filled(&dots, &colour, None);
             }
@@ -444,7 +450,8 @@ impl Drawing<'_> {
     }
 
     /// Texts beside points, each on the side where it covers least.
-    fn point_labels(&self, canvas: &mut Canvas, placed: &mut Vec<Window>) {
+    fn point_labels(&self, canvas: &mut Canvas) {
+        let mut placed: Vec<Window> = Vec::new();
         let labelled: Vec<(Point, &str)> = self
             .panel
             .series

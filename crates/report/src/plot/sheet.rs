@@ -5,7 +5,7 @@
 //! labels, the abscissae from the width that is left.
 
 use super::Svg;
-use super::axis::{Axis, Extent, Margin, Ruler};
+use super::axis::{Axis, Extent, Margin, Ruler, Scale};
 use super::curve::Window;
 use super::legend::Legend;
 use super::panel::{Drawing, Panel};
@@ -232,8 +232,8 @@ impl Sheet<'_> {
             let mut y_extent = Extent::default();
             panel.extend(&stack.x, &mut x_extent, &mut y_extent);
             let height = panel.height.unwrap_or(self.panel_height).round();
-            // Tick labels stand at least two and a half lines apart.
-            let most = ((height / (2.5 * TICK)) as usize).clamp(2, 9);
+            // Tick labels stand about two lines apart.
+            let most = ((height / (2.0 * TICK)).round() as usize).clamp(2, 9);
             let ruler = Ruler::fit(&panel.y, y_extent, Margin::Airy, most);
             fitted
                 .labels
@@ -317,7 +317,13 @@ impl Fitted<'_> {
                 .fold(0.0, f64::max);
             room.fold(f64::INFINITY, f64::min) >= widest + 1.2 * TICK
         };
-        let most = ((width / 55.0) as usize).clamp(2, 12);
+        // Powers of ten are short and every decade is wanted; other ticks are best not too many.
+        let room = if self.stack.x.scale == Scale::Log {
+            30.0
+        } else {
+            55.0
+        };
+        let most = ((width / room) as usize).clamp(2, 12);
         (2..=most).rev().map(fit).find(fits).unwrap_or_else(|| fit(2))
     }
 

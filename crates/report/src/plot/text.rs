@@ -116,12 +116,20 @@ fn advance(c: char) -> f64 {
     }
 }
 
-/// Breaks text into lines no wider than `most` pixels, between words where possible and inside a word where
-/// one alone is too wide. Markup is never broken.
+/// Breaks text into lines no wider than `most` pixels: between words, at a no-break space of a word that is
+/// too wide, and inside a word where nothing else helps. Markup is never broken.
 pub(crate) fn wrap(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
-    for word in words(text) {
+    let too_wide = |word: &String| width(word, size) > most;
+    let loosened = words(text).into_iter().flat_map(|word| {
+        if too_wide(&word) {
+            words(&word.replace('\u{A0}', " "))
+        } else {
+            vec![word]
+        }
+    });
+    for word in loosened {
         let joined = if line.is_empty() {
             word.clone()
         } else {
@@ -218,6 +226,8 @@ mod tests {
     #[test]
     fn lines_break_between_words_and_inside_long_ones() {
         assert_eq!(wrap("Angle of attack", 10.0, 50.0), ["Angle of", "attack"]);
+        assert_eq!(wrap("Load (a\u{A0}b)", 10.0, 50.0), ["Load", "(a\u{A0}b)"]);
+        assert_eq!(wrap("(dB\u{A0}re\u{A0}m)", 10.0, 35.0), ["(dB re", "m)"]);
         assert_eq!(wrap("abcdefgh", 10.0, 25.0), ["abcd", "efgh"]);
         assert!(wrap("", 10.0, 50.0).is_empty());
     }

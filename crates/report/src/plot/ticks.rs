@@ -28,12 +28,14 @@ impl Step {
         }
     }
 
-    /// First and last multiple inside an interval.
+    /// First and last multiple inside an interval. Axes span at least 1e-10 of their values, far from the bound.
     fn range(self, low: f64, high: f64) -> (i64, i64) {
+        const BOUND: f64 = 1e13;
+        let multiple = |part: f64| part.clamp(-BOUND, BOUND) as i64;
         let step = self.value();
         (
-            (low / step - ON_LIMIT).ceil() as i64,
-            (high / step + ON_LIMIT).floor() as i64,
+            multiple((low / step - ON_LIMIT).ceil()),
+            multiple((high / step + ON_LIMIT).floor()),
         )
     }
 

@@ -1,0 +1,5 @@
+//! Integration tests of tables and plots.
+
+mod plots;
+mod svg_check;
+mod tables;
