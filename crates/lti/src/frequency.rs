@@ -7,6 +7,7 @@ use albatross_numerics::{C64, Mat, eigen};
 
 use crate::error::SignalKind;
 use crate::reduced::LagReduced;
+use crate::state_space::index_of;
 use crate::{Error, Result, Signal, StateSpace};
 
 /// How the resolvent is applied.
@@ -301,22 +302,8 @@ impl Response {
     /// # Errors
     /// [`Error::UnknownSignal`] with the names there are.
     pub fn get(&self, output: &str, input: &str) -> Result<Channel> {
-        let find = |kind, signals: &[Signal], name: &str| {
-            signals
-                .iter()
-                .position(|s| s.name == name)
-                .ok_or_else(|| Error::UnknownSignal {
-                    kind,
-                    name: name.to_owned(),
-                    known: signals
-                        .iter()
-                        .map(|s| s.name.as_str())
-                        .collect::<Vec<_>>()
-                        .join(", "),
-                })
-        };
-        let i = find(SignalKind::Output, &self.outputs, output)?;
-        let j = find(SignalKind::Input, &self.inputs, input)?;
+        let i = index_of(SignalKind::Output, &self.outputs, output)?;
+        let j = index_of(SignalKind::Input, &self.inputs, input)?;
         Ok(Channel {
             omega_rad_s: self.omega_rad_s.clone(),
             values: self.values.iter().map(|h| h[(i, j)]).collect(),

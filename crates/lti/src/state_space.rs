@@ -319,7 +319,7 @@ impl StateSpace {
     }
 }
 
-fn index_of(kind: SignalKind, signals: &[Signal], name: &str) -> Result<usize> {
+pub(crate) fn index_of(kind: SignalKind, signals: &[Signal], name: &str) -> Result<usize> {
     signals
         .iter()
         .position(|s| s.name == name)

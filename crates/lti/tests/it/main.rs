@@ -5,5 +5,6 @@
 mod frequency;
 mod models;
 mod modes;
+mod simulation;
 mod state_space;
 mod tracking;
