@@ -77,15 +77,17 @@ fn add_bars(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
 }
 
 fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result<(), Error> {
-    let mut massive = 0;
     for beam in context.deck.beams.values() {
         let missing = |what| context.missing("CBEAM", beam.id, what);
         let property = context.deck.beam_properties.get(&beam.pid);
         let property = property.ok_or_else(|| missing(format!("PBEAM or PBEAML {}", beam.pid)))?;
         let rho = density(context, "CBEAM", beam.id, property.mid())?;
-        let Some(stations) = property.mass_stations() else {
-            mass.other
-                .push(format!("CBEAM {} (area of its section is not known)", beam.id));
+        let (Some(stations), Some(axial_inertia)) = (property.mass_stations(), axial_inertia(property, rho))
+        else {
+            mass.other.push(format!(
+                "CBEAM {} (area or moments of its section are not known)",
+                beam.id
+            ));
             continue;
         };
         let line_mass: Vec<(f64, f64)> = stations
@@ -93,7 +95,6 @@ fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Resul
             .map(|&(x, area, nsm)| (x, rho * area + nsm))
             .collect();
         let per_length = end_shares(&line_mass);
-        let (axial_inertia, eccentric) = beam_extras(property, rho, &stations);
         if per_length == [0.0; 2] && axial_inertia == 0.0 {
             continue;
         }
@@ -105,14 +106,13 @@ fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Resul
             &beam.offset_frames,
             [beam.wa, beam.wb],
         )?;
-        let Some(arms) = offsets.filter(|_| !eccentric) else {
+        let Some(arms) = offsets.filter(|_| !is_eccentric(property, rho, &stations)) else {
             mass.other.push(format!(
                 "CBEAM {} (mass off the shear centre, or offsets in the element frame)",
                 beam.id
             ));
             continue;
         };
-        massive += 1;
         let (name, id, grids) = ("CBEAM", beam.id, beam.grids);
         Line {
             name,
@@ -124,12 +124,6 @@ fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Resul
             coupled,
         }
         .add_to(context, mass)?;
-    }
-    if massive > 0 {
-        mass.notes.push(format!(
-            "{massive} CBEAM elements carry mass; the inertia of their sections about the beam axis, \
-             rho (I1 + I2) L, is not in the mass matrix"
-        ));
     }
     Ok(())
 }
@@ -293,21 +287,45 @@ fn end_shares(stations: &[(f64, f64)]) -> [f64; 2] {
     shares
 }
 
-/// Mean non-structural inertia per length, and whether some mass is not on the shear centre.
-fn beam_extras(property: &BeamProperty, rho: f64, stations: &[(f64, f64, f64)]) -> (f64, bool) {
-    let BeamProperty::Pbeam(beam) = property else {
-        return (0.0, false);
+/// Inertia of a beam about its axis per length, kg m, mean of both ends: rho (I1 + I2) and the non-structural part.
+/// Nastran gives it to CBEAM and not to CBAR. `None` when the moments of a section are not known.
+fn axial_inertia(property: &BeamProperty, rho: f64) -> Option<f64> {
+    let polar = |(i1, i2): (f64, f64)| i1 + i2;
+    let ends = match property {
+        BeamProperty::Pbeam(beam) => {
+            let a = beam.stations.first()?;
+            let b = beam.stations.iter().find(|s| s.x == 1.0).unwrap_or(a);
+            let at_a = (a.i1.unwrap_or(0.0), a.i2.unwrap_or(0.0));
+            let at_b = (b.i1.unwrap_or(at_a.0), b.i2.unwrap_or(at_a.1));
+            let [nsi_a, nsi_b] = beam.ends.nsi;
+            let nsi_a = nsi_a.unwrap_or(0.0);
+            [
+                rho * polar(at_a) + nsi_a,
+                rho * polar(at_b) + nsi_b.unwrap_or(nsi_a),
+            ]
+        }
+        BeamProperty::Pbeaml(_) if rho == 0.0 => [0.0; 2],
+        BeamProperty::Pbeaml(beam) => {
+            let a = beam.stations.first()?;
+            let b = beam.stations.iter().find(|s| s.x == 1.0).unwrap_or(a);
+            [
+                rho * polar(a.section.second_moments()?),
+                rho * polar(b.section.second_moments()?),
+            ]
+        }
     };
-    let ends = &beam.ends;
-    let [a, b] = ends.nsi;
-    let a = a.unwrap_or(0.0);
-    let inertia = (a + b.unwrap_or(a)) / 2.0;
+    Some((ends[0] + ends[1]) / 2.0)
+}
+
+/// Whether some mass of a beam is not on the shear centre.
+fn is_eccentric(property: &BeamProperty, rho: f64, stations: &[(f64, f64, f64)]) -> bool {
+    let BeamProperty::Pbeam(beam) = property else {
+        return false;
+    };
     let offset = |values: &[Option<f64>; 4]| values.iter().flatten().any(|&v| v != 0.0);
     let structural = rho != 0.0 && stations.iter().any(|s| s.1 != 0.0);
     let non_structural = stations.iter().any(|s| s.2 != 0.0);
-    let eccentric =
-        (structural && offset(&ends.neutral_axis)) || (non_structural && offset(&ends.nsm_center));
-    (inertia, eccentric)
+    (structural && offset(&beam.ends.neutral_axis)) || (non_structural && offset(&beam.ends.nsm_center))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! | CONM1 | its 6x6 matrix, turned from its frame |
 //! | CONM2 | rigid mass at an offset, with inertia about its centre, turned from its frame |
 //! | CBAR, CBEAM | (rho A + nsm) L, half at each end of the element; element offsets are rigid arms |
+//! | CBEAM | beside that, the inertia of its sections about its axis, (rho (I1 + I2) + nsi) L |
 //! | CROD, CONROD | (rho A + nsm) L, half at each grid |
 //! | PARAM,WTMASS | factor on all of them |
 //!
