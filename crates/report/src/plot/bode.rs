@@ -12,7 +12,8 @@ use crate::error::ReportError;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PhaseDisplay {
-    /// Curves of a channel are shifted by whole turns to lie as close as they can to the first.
+    /// Curves of a channel are shifted by whole turns: all of them so that the one that reaches the lowest
+    /// frequency starts between -180 and 180 deg, and the others to lie as close as they can to it.
     #[default]
     Aligned,
     /// Drawn as given.
@@ -71,6 +72,26 @@ impl BodeChannel {
         self
     }
 
+    /// The curve that reaches the lowest frequency, and the whole turns of its phase there.
+    fn lowest(&self) -> Option<(&BodeCurve, f64)> {
+        let start = |curve: &BodeCurve| {
+            let points = curve
+                .frequency
+                .iter()
+                .copied()
+                .zip(curve.phase_deg.iter().copied());
+            points
+                .filter(|(_, phase)| phase.is_finite())
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let starts = self
+            .curves
+            .iter()
+            .filter_map(|curve| Some((curve, start(curve)?)));
+        let (curve, (_, phase)) = starts.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+        Some((curve, (phase / 360.0).round()))
+    }
+
     fn stack(&self, frequency: &Axis, display: PhaseDisplay) -> Result<Stack, ReportError> {
         let unit = match self.magnitude_reference.as_str() {
             "" => "dB".to_owned(),
@@ -78,13 +99,14 @@ impl BodeChannel {
         };
         let mut magnitude = Panel::over(Axis::new("Magnitude", unit).with_scale(Scale::Decibels));
         let mut phase = Panel::over(Axis::new("Phase", "deg").with_scale(Scale::Degrees)).with_height(120.0);
+        let anchor = self.lowest();
         for curve in &self.curves {
             let series = |y: Vec<f64>| Series::new(&*curve.name, curve.style, curve.frequency.clone(), y);
             curve.check()?;
             magnitude.series.push(series(curve.magnitude_db.clone()));
-            match (display, self.curves.first()) {
-                (PhaseDisplay::Aligned, Some(first)) => {
-                    let turns = 360.0 * curve.turns_away_from(first);
+            match (display, anchor) {
+                (PhaseDisplay::Aligned, Some((anchor, start))) => {
+                    let turns = 360.0 * (curve.turns_away_from(anchor) + start);
                     phase
                         .series
                         .push(series(curve.phase_deg.iter().map(|deg| deg - turns).collect()));

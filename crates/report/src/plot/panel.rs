@@ -246,37 +246,37 @@ impl Drawing<'_> {
 
     fn grid(&self, canvas: &mut Canvas) {
         let w = &self.window;
-        canvas.open_group("grid");
-        let mut rule = |x: Option<f64>, y: Option<f64>, stroke: &Stroke<'_>| {
-            if let Some(x) = x {
-                canvas.line(w.at(x, 0.0), w.at(x, 1.0), stroke);
-            }
-            if let Some(y) = y {
-                canvas.line(w.at(0.0, y), w.at(1.0, y), stroke);
-            }
+        let upright = |x: f64| path(&[vec![w.at(x, 0.0), w.at(x, 1.0)]]);
+        let level = |y: f64| path(&[vec![w.at(0.0, y), w.at(1.0, y)]]);
+        let minor: String = self
+            .x
+            .minor()
+            .into_iter()
+            .map(upright)
+            .chain(self.y.minor().into_iter().map(level))
+            .collect();
+        let (x, y) = (self.x.major(), self.y.major());
+        let major: String = x
+            .into_iter()
+            .map(|(x, _)| upright(x))
+            .chain(y.into_iter().map(|(y, _)| level(y)))
+            .collect();
+        let imaginary_axis = if self.panel.damping_rays.is_empty() {
+            None
+        } else {
+            self.x.zero()
         };
-        let minor = Stroke::solid(theme::MINOR_GRID, 0.7);
-        self.x
-            .minor()
+        let zero: String = self
+            .y
+            .zero()
+            .map(level)
             .into_iter()
-            .for_each(|x| rule(Some(x), None, &minor));
-        self.y
-            .minor()
-            .into_iter()
-            .for_each(|y| rule(None, Some(y), &minor));
-        let major = Stroke::solid(theme::GRID, 0.8);
-        self.x
-            .major()
-            .into_iter()
-            .for_each(|(x, _)| rule(Some(x), None, &major));
-        self.y
-            .major()
-            .into_iter()
-            .for_each(|(y, _)| rule(None, Some(y), &major));
-        rule(None, self.y.zero(), &Stroke::solid(theme::ZERO, 0.9));
-        if !self.panel.damping_rays.is_empty() {
-            rule(self.x.zero(), None, &Stroke::solid(theme::ZERO, 0.9));
-        }
+            .chain(imaginary_axis.map(upright))
+            .collect();
+        canvas.open_group("grid");
+        canvas.stroked(&minor, &Stroke::solid(theme::MINOR_GRID, 0.7));
+        canvas.stroked(&major, &Stroke::solid(theme::GRID, 0.8));
+        canvas.stroked(&zero, &Stroke::solid(theme::ZERO, 0.9));
         canvas.close_group();
     }
 
@@ -369,45 +369,78 @@ impl Drawing<'_> {
                     },
                 );
                 let name = format!("ζ = {}", crate::number::shortest(*zeta).replace('-', "\u{2212}"));
-                self.ray_label(canvas, &name, to, sign, &mut labels);
+                self.ray_label(canvas, &name, (from, to), &mut labels);
             }
         }
     }
 
-    /// Writes a ray's damping ratio above the frame where the ray leaves at the top, or inside at the left.
-    fn ray_label(&self, canvas: &mut Canvas, name: &str, end: Point, upper: f64, labels: &mut Vec<Window>) {
-        let width = text::width(name, theme::NOTE);
-        let (at, anchor) = if (end.1 - self.window.top).abs() < 0.5 {
-            ((end.0, end.1 - 0.5 * theme::NOTE - 3.0), Anchor::Middle)
-        } else if (end.0 - self.window.left).abs() < 0.5 {
-            // On the side of the ray that widens towards the right.
-            (
-                (end.0 + 5.0, end.1 - upper * (0.5 * theme::NOTE + 2.0)),
-                Anchor::Start,
-            )
-        } else {
-            return;
-        };
-        let left = if anchor == Anchor::Middle {
-            at.0 - 0.5 * width
-        } else {
-            at.0
-        };
-        let space = Window {
+    /// Writes a ray's damping ratio above the frame where the ray leaves at the top, else beside the ray near
+    /// the left edge, further in where a point is in the way.
+    fn ray_label(
+        &self,
+        canvas: &mut Canvas,
+        name: &str,
+        (from, to): (Point, Point),
+        labels: &mut Vec<Window>,
+    ) {
+        let (width, height) = (text::width(name, theme::NOTE), theme::NOTE);
+        let space = |left: f64, middle: f64| Window {
             left,
-            top: at.1 - 0.5 * theme::NOTE,
+            top: middle - 0.5 * height,
             width,
-            height: theme::NOTE,
+            height,
         };
-        let inside = anchor == Anchor::Middle
-            || (self.window.holds((space.left, space.top))
-                && self.window.holds((space.right(), space.bottom())));
-        if inside && labels.iter().all(|other| !overlap(other, &space, 4.0)) {
-            let label = Label {
-                rimmed: true,
-                ..Label::new(name, at, theme::NOTE, anchor, theme::GUIDE)
+        let at_top = (to.1 - self.window.top).abs() < 0.5;
+        let spaces = if at_top {
+            vec![space(to.0 - 0.5 * width, to.1 - 0.5 * height - 3.0)]
+        } else if (to.0 - self.window.left).abs() < 0.5 {
+            // On the side away from the real axis.
+            let away = if to.1 < from.1 {
+                -0.5 * height - 2.0
+            } else {
+                0.5 * height + 2.0
             };
-            canvas.label(&label);
+            let along = |part: f64| {
+                space(
+                    to.0 + part * (from.0 - to.0) + 5.0,
+                    to.1 + part * (from.1 - to.1) + away,
+                )
+            };
+            [0.0, 0.1, 0.2, 0.3, 0.4].map(along).to_vec()
+        } else {
+            Vec::new()
+        };
+        let points: Vec<Point> = self
+            .panel
+            .series
+            .iter()
+            .flat_map(|series| self.pixels(series))
+            .flatten()
+            .collect();
+        let free = |space: &Window| {
+            let inside = self.window.holds((space.left, space.top))
+                && self.window.holds((space.right(), space.bottom()));
+            let covers = |point: &Point| {
+                overlap(
+                    space,
+                    &Window {
+                        left: point.0,
+                        top: point.1,
+                        width: 0.0,
+                        height: 0.0,
+                    },
+                    5.0,
+                )
+            };
+            labels.iter().all(|other| !overlap(other, space, 4.0))
+                && (at_top || inside && !points.iter().any(covers))
+        };
+        if let Some(space) = spaces.into_iter().find(free) {
+            let label = Label::new(name, space.middle(), theme::NOTE, Anchor::Middle, theme::GUIDE);
+            canvas.label(&Label {
+                rimmed: true,
+                ..label
+            });
             labels.push(space);
         }
     }
