@@ -7,7 +7,7 @@
 //! ```
 //! and the questions asked of it are: which modes has it ([`mode_table`]), what became of a mode when speed
 //! or mass changed ([`Tracker`]), how does it answer a sinusoid ([`frequency_response`]) or a manoeuvre
-//! ([`simulate`]), and which low-order transfer function has the same poles and zeros (`Zpk`).
+//! ([`simulate`]), and which low-order transfer function has the same poles and zeros ([`Zpk`]).
 //!
 //! | module | in | out |
 //! |---|---|---|
@@ -57,14 +57,20 @@ mod error;
 pub mod exponential;
 pub mod frequency;
 pub mod modes;
+pub mod polynomial;
+mod realisation;
 mod reduced;
 pub mod simulation;
 pub mod state_space;
 pub mod track;
+mod zeros;
+pub mod zpk;
 
 pub use error::{Error, Result, SignalKind};
 pub use frequency::{Channel, FrequencySolver, Method, Response, frequency_response};
 pub use modes::{Mode, Participation, mode_table, mode_table_of};
+pub use polynomial::TransferFunction;
 pub use simulation::{History, Hold, simulate, simulate_rk4};
 pub use state_space::{Signal, StateSpace};
 pub use track::{Followed, TrackOptions, TrackedMode, Tracker, modes_carried_by, track};
+pub use zpk::Zpk;

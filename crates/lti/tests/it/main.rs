@@ -8,3 +8,4 @@ mod modes;
 mod simulation;
 mod state_space;
 mod tracking;
+mod zpk;

@@ -138,3 +138,41 @@ proptest! {
         }
     }
 }
+
+/// scipy 1.17.1, signal.lsim with interp = True (linear between samples) and False (held).
+#[test]
+fn val_two_inputs_against_scipy() {
+    let system = StateSpace::unnamed(
+        mat(&[&[-0.6, 1.1, 0.2], &[-2.0, -0.4, 0.5], &[0.3, -0.7, -1.5]]),
+        mat(&[&[0.5, 0.0], &[1.0, -0.2], &[0.0, 2.0]]),
+        mat(&[&[1.0, 0.0, 0.3], &[0.0, 2.0, -1.0]]),
+        mat(&[&[0.0, 0.1], &[0.0, 0.0]]),
+    )
+    .unwrap();
+    let inputs: Vec<Vec<f64>> = (0..9)
+        .map(|k| 0.25 * f64::from(k))
+        .map(|t| vec![(2.0 * t).sin(), (3.0 * t).cos()])
+        .collect();
+    let run = |hold| simulate(&system, 0.25, &inputs, Some(&[0.1, -0.2, 0.3]), hold).unwrap();
+    let first = run(Hold::First);
+    let expected_y1 = [
+        0.29,
+        0.340_606_892_601_303_67,
+        0.347_632_210_692_182_64,
+        0.318_328_254_814_233_66,
+    ];
+    let expected_y2 = [
+        -0.7,
+        -0.894_705_351_010_296,
+        -0.544_833_441_553_811_6,
+        0.115_062_929_736_851_28,
+    ];
+    for k in 0..4 {
+        assert!((first.output("y1").unwrap()[k] - expected_y1[k]).abs() < 1e-14);
+        assert!((first.output("y2").unwrap()[k] - expected_y2[k]).abs() < 1e-14);
+    }
+    assert!((first.output("y1").unwrap()[8] - 0.282_014_503_630_468).abs() < 1e-14);
+    let held = run(Hold::Zero).output("y1").unwrap();
+    assert!((held[4] - 0.325_362_338_846_781_6).abs() < 1e-14);
+    assert!((held[8] - 0.351_536_870_781_019_1).abs() < 1e-14);
+}
