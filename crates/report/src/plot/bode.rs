@@ -29,7 +29,7 @@ pub struct BodeCurve {
     pub name: String,
     /// How it is drawn.
     pub style: Style,
-    /// Frequencies, in the unit of the plot's axis.
+    /// Frequencies in ascending order, in the unit of the plot's axis.
     pub frequency: Vec<f64>,
     /// Magnitude in decibels at each frequency.
     pub magnitude_db: Vec<f64>,

@@ -1,7 +1,8 @@
 //! The legend: outside the frames, wrapped to the width there is.
 
+use super::drawing::draw_markers;
 use super::palette::Style;
-use super::panel::{Panel, draw_markers};
+use super::panel::Panel;
 use super::svg::{Anchor, Canvas, Label, Stroke};
 use super::text;
 use super::theme::{INK, LEGEND, LINE};

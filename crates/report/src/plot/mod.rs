@@ -15,6 +15,7 @@
 mod axis;
 mod bode;
 mod curve;
+mod drawing;
 mod legend;
 mod line;
 mod palette;

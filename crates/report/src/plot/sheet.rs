@@ -7,8 +7,9 @@
 use super::Svg;
 use super::axis::{Axis, Extent, Margin, Ruler, Scale};
 use super::curve::Window;
+use super::drawing::Drawing;
 use super::legend::Legend;
-use super::panel::{Drawing, Panel};
+use super::panel::Panel;
 use super::svg::{Anchor, Canvas, Label, Stroke};
 use super::text;
 use super::theme::{FAINT_INK, FRAME, HEADING, INK, LABEL, LINE, NOTE, RIM, TICK, TICK_MARK};
