@@ -93,6 +93,14 @@ pub enum Error {
         /// Which output request or solution to add.
         cure: String,
     },
+    /// A card that cannot be written in any field format.
+    #[error("{card}: {problem}")]
+    Unwritable {
+        /// The card.
+        card: String,
+        /// What is wrong, and the cure.
+        problem: String,
+    },
     /// Coordinate systems or points that cannot be resolved.
     #[error("{location}: {problem}")]
     Frame {

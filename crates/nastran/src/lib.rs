@@ -9,6 +9,7 @@ mod lines;
 pub mod number;
 mod remarks;
 mod results;
+pub mod write;
 
 pub use deck::Deck;
 pub use error::{Diagnostic, Error, Severity, refuse_errors};

@@ -198,12 +198,7 @@ impl Checker<'_> {
             }
         }
         for (&id, mass) in &deck.scalar_masses {
-            let card = match (mass.value, mass.scalar_points_only) {
-                (ScalarMassValue::Property(_), false) => "CMASS1",
-                (ScalarMassValue::Value(_), false) => "CMASS2",
-                (ScalarMassValue::Property(_), true) => "CMASS3",
-                (ScalarMassValue::Value(_), true) => "CMASS4",
-            };
+            let card = mass.card_name();
             for end in mass.ends {
                 self.point(card, id, "G", end.point);
             }

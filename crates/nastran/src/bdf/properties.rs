@@ -59,18 +59,19 @@ pub(super) fn pbeam(f: &mut Fields<'_>) -> (Id, Pbeam) {
     let mid = f.id(2, "MID");
     let is_station = |f: &Fields<'_>, n: usize| matches!(f.word(n).as_str(), "YES" | "YESA" | "NO");
     let mut stations = vec![section_constants(f, 3, String::new(), 0.0)];
+    // Stress points follow end A and a station with YES; a line of blanks stands for none.
+    let mut stress_points_next = true;
     let mut n = 9;
     while n <= f.card.len() {
-        let after_station = stations.len() > 1 || n > 9;
         if is_station(f, n) {
             let stress_output = f.word(n);
+            stress_points_next = stress_output == "YES";
             let x = f.real_or(n + 1, "X/XB", 1.0);
             stations.push(section_constants(f, n + 2, stress_output, x));
-        } else if let Some(last) = stations.last_mut().filter(|s| {
-            // Stress points follow end A, and a station with YES.
-            s.stress_points.is_none() && (!after_station || s.stress_output == "YES")
-        }) {
-            last.stress_points = Some([0, 1, 2, 3, 4, 5, 6, 7].map(|k| f.real(n + k, "stress point")));
+        } else if let Some(last) = stations.last_mut().filter(|_| stress_points_next) {
+            stress_points_next = false;
+            let points = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| f.real(n + k, "stress point"));
+            last.stress_points = points.iter().any(Option::is_some).then_some(points);
         } else {
             break;
         }

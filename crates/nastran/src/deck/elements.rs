@@ -173,6 +173,19 @@ pub struct Cmass {
     pub scalar_points_only: bool,
 }
 
+impl Cmass {
+    /// The card that the element is written on.
+    #[must_use]
+    pub fn card_name(&self) -> &'static str {
+        match (self.value, self.scalar_points_only) {
+            (ScalarMassValue::Property(_), false) => "CMASS1",
+            (ScalarMassValue::Value(_), false) => "CMASS2",
+            (ScalarMassValue::Property(_), true) => "CMASS3",
+            (ScalarMassValue::Value(_), true) => "CMASS4",
+        }
+    }
+}
+
 /// Stiffness of a scalar spring: by property (CELAS1) or on the card (CELAS2).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum ScalarSpringValue {

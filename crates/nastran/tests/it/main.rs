@@ -9,3 +9,4 @@
 
 mod decks;
 mod f06_fixtures;
+mod round_trip;
