@@ -62,6 +62,7 @@
 pub mod aerodynamics;
 pub mod aircraft;
 pub mod atmosphere;
+pub mod derivatives;
 pub mod layout;
 pub mod linearize;
 pub mod scalar;

@@ -10,7 +10,7 @@
 //! `c_m` about the aerodynamic centre, nose up. The distributions come from strip output (differences of two runs)
 //! or, where there is none, from the analytic estimates of [`analytic_lift`].
 
-use crate::shapes::StripShapes;
+use crate::shapes::{DihedralForm, StripShapes};
 use crate::strip::Strip;
 use crate::{Error, ensure_rows};
 use albatross_numerics::Mat;
@@ -76,25 +76,31 @@ pub struct AnalyticLift<'a> {
     pub cl0: &'a [f64],
     /// Sweep of each strip, positive aft \[rad\].
     pub sweep_rad: &'a [f64],
-    /// Centre of gravity, structural x \[m\].
-    pub x_cg: f64,
+    /// Centre of gravity, structural x and z \[m\].
+    pub cg_xz: [f64; 2],
+    /// How dihedral enters.
+    pub form: DihedralForm,
 }
 
 /// Analytic `dc_l/dX` for X = alpha, beta, p b/2V, q cbar/2V, r b/2V; strips x 5.
 ///
 /// Strip estimates: a roll rate adds the incidence `p y/V`, a pitch rate `q (x_34 - x_cg)/V`, a yaw rate changes the
-/// local speed by `-r y`, sideslip acts through dihedral and through the sweep's cosine.
+/// local speed by `-r y`, sideslip acts through dihedral and through the sweep's cosine. In the general form the arms
+/// are those of the strip's normal, so that a fin answers to roll and yaw too.
 pub fn analytic_lift(strips: &[Strip], given: &AnalyticLift<'_>, reference: &ReferenceShape) -> Mat<f64> {
+    let [x_cg, z_cg] = given.cg_xz;
     Mat::from_fn(strips.len(), 5, |j, variable| {
         let s = &strips[j];
         let cl0 = given.cl0.get(j).copied().unwrap_or(0.0);
         let sweep = given.sweep_rad.get(j).copied().unwrap_or(0.0);
+        let (cos, sin) = given.form.components(s);
+        let aft = s.x_three_quarter() - x_cg;
         match variable {
-            0 => given.alpha.get(j).copied().unwrap_or(s.cl_alpha),
+            0 => given.alpha.get(j).copied().unwrap_or(s.cl_alpha) * cos,
             1 => s.cl_alpha * s.dihedral_rad.sin() + s.y.signum() * 2.0 * cl0 * sweep.tan(),
-            2 => s.cl_alpha * 2.0 * s.y / reference.span,
-            3 => s.cl_alpha * 2.0 * (s.x_three_quarter() - given.x_cg) / reference.chord,
-            _ => -4.0 * cl0 * s.y / reference.span,
+            2 => s.cl_alpha * 2.0 * (s.y * cos + (s.z - z_cg) * sin) / reference.span,
+            3 => s.cl_alpha * 2.0 * aft * cos / reference.chord,
+            _ => -(4.0 * cl0 * s.y + s.cl_alpha * 2.0 * aft * sin) / reference.span,
         }
     })
 }

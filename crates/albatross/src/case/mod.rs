@@ -1,0 +1,508 @@
+//! The case file: one TOML document that names inputs, corrections, flight point, sensors and manoeuvres.
+//!
+//! Every key is described in `docs/CASE.md`; unknown keys are errors. Structural damping has no default.
+
+mod grids;
+pub mod manoeuvre;
+
+pub use grids::{GridEntry, grid_list};
+pub use manoeuvre::{ManoeuvreCase, SignalCase};
+
+use crate::Error;
+use albatross_flight::derivatives::DragLaw;
+use albatross_flight::{ControlAerodynamics, Fidelity, Method, Quantity, ShapeReference};
+use albatross_numerics::interp;
+use albatross_strip::{DihedralForm, DownwashPoint, Split};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A whole case.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Title.
+    pub title: String,
+    /// Structural inputs.
+    pub structure: StructureCase,
+    /// Aerodynamic inputs.
+    pub aerodynamics: AerodynamicsCase,
+    /// Data of higher fidelity that variants may use.
+    pub corrections: Option<CorrectionsCase>,
+    /// Reference shape where it is not that of the AVL run.
+    pub reference: Option<ReferenceCase>,
+    /// Flight point.
+    pub flight: FlightCase,
+    /// Engines; without them the thrust acts through the centre of gravity.
+    #[serde(default, rename = "engine")]
+    pub engines: Vec<EngineCase>,
+    /// Variants; the first is the default.
+    #[serde(default, rename = "variant")]
+    pub variants: Vec<VariantCase>,
+    /// Outputs.
+    #[serde(default, rename = "sensor")]
+    pub sensors: Vec<SensorCase>,
+    /// Simulations.
+    #[serde(default, rename = "manoeuvre")]
+    pub manoeuvres: Vec<ManoeuvreCase>,
+    /// Frequencies of the frequency response.
+    #[serde(default)]
+    pub bode: BodeCase,
+}
+
+/// Structural inputs.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StructureCase {
+    /// Nastran deck.
+    pub deck: String,
+    /// Printed results of SOL 103.
+    pub results: String,
+    /// Elastic modes that are kept: how many from the lowest, or their numbers in the file.
+    pub modes: ModeChoice,
+    /// Structural damping ratio of all modes, or one each.
+    pub damping_ratio: Damping,
+    /// Largest share of rigid motion in a mode.
+    #[serde(default = "default_tolerance")]
+    pub mean_axes_tolerance: f64,
+    /// What to do with a mode beyond it.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+    /// Interpolation along the load reference axes.
+    #[serde(default = "default_interpolation")]
+    pub interpolation: interp::Method,
+    /// Subcase of the results, where there are several.
+    pub subcase: Option<u32>,
+    /// Load reference axes: grids from one end to the other.
+    pub lra: BTreeMap<String, Vec<GridEntry>>,
+}
+
+fn default_tolerance() -> f64 {
+    1e-6
+}
+
+fn default_interpolation() -> interp::Method {
+    interp::Method::Cubic
+}
+
+/// What to do with a mode that holds rigid motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OnViolation {
+    /// Stop with the figures.
+    #[default]
+    Refuse,
+    /// Remove the rigid motion.
+    Orthogonalise,
+    /// Go on with the modes as they are.
+    Accept,
+}
+
+impl From<OnViolation> for albatross_modal::OnViolation {
+    fn from(choice: OnViolation) -> Self {
+        match choice {
+            OnViolation::Refuse => Self::Refuse,
+            OnViolation::Orthogonalise => Self::Orthogonalise,
+            OnViolation::Accept => Self::Accept,
+        }
+    }
+}
+
+/// Which modes.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub enum ModeChoice {
+    /// The lowest elastic modes.
+    Lowest(usize),
+    /// Numbers in the results file.
+    Numbers(Vec<usize>),
+}
+
+/// Damping of the modes.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub enum Damping {
+    /// The same ratio for all.
+    Uniform(f64),
+    /// One ratio a mode.
+    PerMode(Vec<f64>),
+}
+
+/// Aerodynamic inputs.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AerodynamicsCase {
+    /// AVL geometry.
+    pub geometry: String,
+    /// AVL stability derivatives (`.st`).
+    pub derivatives: String,
+    /// AVL strip forces (`.fs`) at two incidences.
+    pub strips: [StripFileCase; 2],
+    /// Where the strips' lift slopes come from.
+    #[serde(default)]
+    pub lift_slopes: LiftSlopes,
+    /// Drag law.
+    #[serde(default)]
+    pub drag: DragLaw,
+    /// The shape from which modes count.
+    pub shape_reference: ShapeReference,
+    /// How a control's lift builds up.
+    #[serde(default)]
+    pub control_aerodynamics: ControlAerodynamics,
+    /// Booking of the non-circulatory terms.
+    #[serde(default)]
+    pub split: Split,
+    /// How shapes meet dihedral.
+    #[serde(default)]
+    pub dihedral: DihedralForm,
+    /// Where downwash is taken.
+    #[serde(default)]
+    pub downwash_point: DownwashPoint,
+    /// Factor on the apparent mass.
+    #[serde(default = "one")]
+    pub apparent_mass_factor: f64,
+    /// Surfaces that carry strips; all others count in the rigid derivatives alone.
+    #[serde(rename = "surface")]
+    pub surfaces: Vec<SurfaceCase>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Source of the strips' lift slopes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LiftSlopes {
+    /// The two AVL strip files.
+    #[default]
+    Avl,
+    /// `2 pi` with the Prandtl-Glauert rule on `M cos(sweep)`; the rigid loads stay AVL's.
+    PrandtlGlauert,
+}
+
+/// A strip file and its incidence.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StripFileCase {
+    /// Path.
+    pub file: String,
+    /// Incidence of the run \[deg\].
+    pub alpha_deg: f64,
+}
+
+/// A surface that carries strips.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceCase {
+    /// Name in the AVL files.
+    pub name: String,
+    /// Load reference axis of the surface.
+    pub lra: String,
+    /// Load reference axis of its mirror image.
+    pub image_lra: Option<String>,
+    /// `d(epsilon)/d(alpha)`: downwash contained in the surface's lift slope with the aircraft's incidence. The slope
+    /// for the strips' own motion is `cl_alpha / (1 - gradient)`.
+    #[serde(default)]
+    pub downwash_gradient: f64,
+}
+
+/// Data of higher fidelity.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CorrectionsCase {
+    /// Where the data come from; kept with every result.
+    pub provenance: String,
+    /// CSV of lift slopes by surface and y.
+    pub lift_slopes: Option<String>,
+    /// JSON of the eight longitudinal derivatives.
+    pub derivatives: Option<String>,
+    /// Control that the elevator derivatives belong to; the trim control by default.
+    pub elevator: Option<String>,
+}
+
+/// Reference shape.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReferenceCase {
+    /// Area \[m²\].
+    pub area: f64,
+    /// Chord \[m\].
+    pub chord: f64,
+    /// Span \[m\].
+    pub span: f64,
+}
+
+/// Flight point.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlightCase {
+    /// Mach number; or give `speed`.
+    pub mach: Option<f64>,
+    /// True airspeed \[m/s\].
+    pub speed: Option<f64>,
+    /// Geopotential altitude \[m\].
+    pub altitude: f64,
+    /// Flight-path angle \[deg\].
+    #[serde(default)]
+    pub path_angle_deg: f64,
+    /// Control that trims pitch.
+    pub trim_control: String,
+    /// Gravity \[m/s²\].
+    #[serde(default = "default_gravity")]
+    pub gravity: f64,
+}
+
+fn default_gravity() -> f64 {
+    albatross_flight::atmosphere::STANDARD_GRAVITY
+}
+
+/// An engine.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EngineCase {
+    /// Name.
+    pub name: String,
+    /// Grid where the thrust acts and whose motion it works on.
+    pub grid: u32,
+    /// Share of the total thrust.
+    pub share: f64,
+    /// Thrust direction above body x \[deg\].
+    #[serde(default)]
+    pub incidence_deg: f64,
+    /// Thrust direction to the right of body x \[deg\].
+    #[serde(default)]
+    pub toe_deg: f64,
+}
+
+/// Line of the thrust.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ThrustLine {
+    /// Through the centre of gravity along body x, no work on the modes.
+    #[default]
+    ThroughCg,
+    /// At the engines.
+    Engines,
+}
+
+/// A variant of the model.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VariantCase {
+    /// Name.
+    pub name: String,
+    /// What it is.
+    #[serde(default)]
+    pub description: String,
+    /// Whether the corrections are applied.
+    #[serde(default)]
+    pub corrections: bool,
+    /// Line of the thrust.
+    #[serde(default)]
+    pub thrust_line: ThrustLine,
+    /// Overrides the case's choice.
+    pub control_aerodynamics: Option<ControlAerodynamics>,
+    /// How the air follows the elastic motion.
+    #[serde(default)]
+    pub fidelity: Fidelity,
+}
+
+/// An output.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorCase {
+    /// Name.
+    pub name: String,
+    /// What is measured.
+    pub quantity: Quantity,
+    /// Grid; none for the mean axes at the centre of gravity.
+    pub grid: Option<u32>,
+}
+
+/// Frequencies of the frequency response, evenly spaced on a logarithmic scale.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodeCase {
+    /// Lowest \[rad/s\].
+    pub from_rad_s: f64,
+    /// Highest \[rad/s\].
+    pub to_rad_s: f64,
+    /// How many.
+    pub points: usize,
+}
+
+impl Default for BodeCase {
+    fn default() -> Self {
+        Self {
+            from_rad_s: 0.01,
+            to_rad_s: 200.0,
+            points: 600,
+        }
+    }
+}
+
+impl BodeCase {
+    /// The frequencies \[rad/s\].
+    pub fn frequencies(&self) -> Vec<f64> {
+        let n = self.points.max(2);
+        let ratio = (self.to_rad_s / self.from_rad_s).ln() / (n - 1) as f64;
+        (0..n)
+            .map(|i| self.from_rad_s * (ratio * i as f64).exp())
+            .collect()
+    }
+}
+
+/// Method of integration where a manoeuvre names none.
+pub(crate) fn default_method() -> Method {
+    Method::Rk4
+}
+
+impl Case {
+    /// Reads a case from TOML text.
+    ///
+    /// # Errors
+    /// [`Error::Case`] with file, line and what is wrong.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Error> {
+        let case: Self = toml::from_str(text).map_err(|e| {
+            let line = e.span().map_or(0, |span| {
+                1 + text.get(..span.start).map_or(0, |t| t.matches('\n').count())
+            });
+            Error::Case {
+                file: file.to_owned(),
+                line,
+                message: e.message().trim().to_owned(),
+                cure: "see docs/CASE.md for every key".into(),
+            }
+        })?;
+        case.check(file)?;
+        Ok(case)
+    }
+
+    fn check(&self, file: &str) -> Result<(), Error> {
+        let refuse = |message: String, cure: &str| {
+            Err(Error::Case {
+                file: file.to_owned(),
+                line: 0,
+                message,
+                cure: cure.to_owned(),
+            })
+        };
+        match (self.flight.mach, self.flight.speed) {
+            (Some(_), Some(_)) => {
+                return refuse("[flight] has both `mach` and `speed`".into(), "keep one of them");
+            }
+            (None, None) => {
+                return refuse(
+                    "[flight] has neither `mach` nor `speed`".into(),
+                    "add `mach = ...`",
+                );
+            }
+            (Some(v), None) | (None, Some(v)) if !(v.is_finite() && v > 0.0) => {
+                return refuse(
+                    format!("the flight speed or Mach number is {v}"),
+                    "give a positive number",
+                );
+            }
+            _ => {}
+        }
+        let dampings: &[f64] = match &self.structure.damping_ratio {
+            Damping::Uniform(xi) => std::slice::from_ref(xi),
+            Damping::PerMode(list) => list,
+        };
+        if let Some(xi) = dampings
+            .iter()
+            .find(|xi| !(xi.is_finite() && (0.0..1.0).contains(*xi)))
+        {
+            return refuse(
+                format!("damping_ratio is {xi}"),
+                "give a ratio of 0 or more and below 1, such as 0.01",
+            );
+        }
+        for surface in &self.aerodynamics.surfaces {
+            for axis in std::iter::once(&surface.lra).chain(&surface.image_lra) {
+                if !self.structure.lra.contains_key(axis) {
+                    let known = self.structure.lra.keys().cloned().collect::<Vec<_>>().join(", ");
+                    return refuse(
+                        format!(
+                            "surface `{}` names the load reference axis `{axis}`",
+                            surface.name
+                        ),
+                        &format!("use one of [structure.lra]: {known}"),
+                    );
+                }
+            }
+            if !(surface.downwash_gradient.is_finite() && surface.downwash_gradient < 1.0) {
+                return refuse(
+                    format!(
+                        "surface `{}`: downwash_gradient is {}",
+                        surface.name, surface.downwash_gradient
+                    ),
+                    "give a number below 1",
+                );
+            }
+        }
+        let b = self.bode;
+        if !(b.from_rad_s > 0.0 && b.to_rad_s > b.from_rad_s && b.to_rad_s.is_finite() && b.points >= 2) {
+            return refuse(
+                "[bode] needs 0 < from_rad_s < to_rad_s and at least 2 points".into(),
+                "correct [bode]",
+            );
+        }
+        let mut names: Vec<&str> = self.variants.iter().map(|v| v.name.as_str()).collect();
+        names.sort_unstable();
+        if let Some(pair) = names.windows(2).find(|w| w[0] == w[1]) {
+            return refuse(
+                format!("two variants are named `{}`", pair[0]),
+                "rename one of them",
+            );
+        }
+        Ok(())
+    }
+
+    /// A variant by name, or the first one (a plain one if the case has none).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names there are.
+    pub fn variant(&self, name: Option<&str>) -> Result<VariantCase, Error> {
+        let Some(name) = name else {
+            return Ok(self.variants.first().cloned().unwrap_or_else(|| VariantCase {
+                name: "base".into(),
+                ..VariantCase::default()
+            }));
+        };
+        self.variants
+            .iter()
+            .find(|v| v.name == name)
+            .cloned()
+            .ok_or_else(|| Error::UnknownName {
+                kind: "variant",
+                name: name.to_owned(),
+                known: self
+                    .variants
+                    .iter()
+                    .map(|v| v.name.clone())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            })
+    }
+
+    /// A manoeuvre by name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names there are.
+    pub fn manoeuvre(&self, name: &str) -> Result<&ManoeuvreCase, Error> {
+        self.manoeuvres
+            .iter()
+            .find(|m| m.name == name)
+            .ok_or_else(|| Error::UnknownName {
+                kind: "manoeuvre",
+                name: name.to_owned(),
+                known: self
+                    .manoeuvres
+                    .iter()
+                    .map(|m| m.name.clone())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            })
+    }
+}

@@ -1,0 +1,376 @@
+//! The model of one variant of a case: basis, strips, aircraft, trim.
+
+use crate::Error;
+use crate::case::{Damping, ModeChoice, SensorCase, ThrustLine, VariantCase};
+use crate::controls::control_loads;
+use crate::inputs::Inputs;
+use crate::strips::{StripSet, strip_set};
+use albatross_flight::derivatives::{AvlOptions, from_avl};
+use albatross_flight::{
+    Aircraft, ElasticPart, Engine, EquationsOfMotion, FlightPoint, ModelOptions, Sensor, SensorPoint, Trim,
+    atmosphere, trim,
+};
+use albatross_modal::{BasisOptions, MassProperties, ModalBasis, Selection};
+use albatross_numerics::Mat;
+use albatross_strip::forces::generalized_forces;
+use albatross_strip::kernels::JONES;
+use albatross_strip::quasi_steady::{
+    AnalyticLift, ReferenceShape, StripLoads, analytic_lift, rigid_to_elastic,
+};
+use albatross_strip::{AeroelasticModel, StripShapes, StripTheory, Structure};
+
+/// A model ready to be trimmed.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The variant.
+    pub variant: VariantCase,
+    /// Modal basis.
+    pub basis: ModalBasis,
+    /// Mass, centre of gravity and inertia that fly.
+    pub mass: MassProperties,
+    /// Damping ratio of each mode.
+    pub damping: Vec<f64>,
+    /// Strips.
+    pub strips: StripSet,
+    /// The aircraft.
+    pub aircraft: Aircraft,
+    /// Options of the equations.
+    pub options: ModelOptions,
+    /// Flight point.
+    pub point: FlightPoint,
+    /// Everything that was assumed or remarked on the way.
+    pub notes: Vec<String>,
+}
+
+impl Inputs {
+    /// Mach number of the flight point.
+    pub fn mach(&self) -> f64 {
+        let flight = &self.case.flight;
+        let sound = atmosphere::standard(flight.altitude).speed_of_sound;
+        flight.mach.or(flight.speed.map(|v| v / sound)).unwrap_or(0.0)
+    }
+
+    /// True airspeed of the flight point \[m/s\].
+    pub fn speed(&self) -> f64 {
+        let flight = &self.case.flight;
+        let sound = atmosphere::standard(flight.altitude).speed_of_sound;
+        flight.speed.or(flight.mach.map(|m| m * sound)).unwrap_or(0.0)
+    }
+
+    /// The modal basis of the case.
+    ///
+    /// # Errors
+    /// As [`ModalBasis::from_nastran`].
+    pub fn basis(&self) -> Result<ModalBasis, Error> {
+        let structure = &self.case.structure;
+        let options = BasisOptions {
+            modes: match &structure.modes {
+                ModeChoice::Lowest(n) => Selection::FirstElastic(*n),
+                ModeChoice::Numbers(numbers) => Selection::Numbers(numbers.clone()),
+            },
+            subcase: structure.subcase,
+            mean_axes_tolerance: structure.mean_axes_tolerance,
+            on_violation: structure.on_violation.into(),
+            ..BasisOptions::default()
+        };
+        Ok(ModalBasis::from_nastran(&self.deck, &self.results, &options)?)
+    }
+}
+
+impl Model {
+    /// Builds the model of a variant.
+    ///
+    /// # Errors
+    /// What the stages return; [`Error::Mismatch`] if a variant asks for corrections that the case does not name.
+    pub fn build(inputs: &Inputs, variant: &VariantCase) -> Result<Self, Error> {
+        if variant.corrections && inputs.slope_table.is_none() && inputs.longitudinal.is_none() {
+            return Err(Error::Mismatch {
+                what: format!("variant `{}`", variant.name),
+                found: "corrections = true without data".into(),
+                expected: "a [corrections] table with lift_slopes or derivatives".into(),
+            });
+        }
+        let basis = inputs.basis()?;
+        let mass = basis.mass.clone().ok_or_else(|| Error::Mismatch {
+            what: "mass of the aircraft".into(),
+            found:
+                "neither a complete mass matrix in the deck nor a grid point weight generator in the results"
+                    .into(),
+            expected: "PARAM,GRDPNT,0 in the deck, so that the results hold the weight generator".into(),
+        })?;
+        let damping = damping(inputs, basis.modes.len())?;
+        let strips = strip_set(inputs, &basis, variant)?;
+        let mut notes: Vec<String> = inputs
+            .notes
+            .iter()
+            .chain(&basis.notes)
+            .chain(&strips.notes)
+            .cloned()
+            .collect();
+        let aircraft = assemble(inputs, variant, &basis, &mass, &damping, &strips, &mut notes)?;
+        let options = ModelOptions {
+            fidelity: variant.fidelity,
+            control_aerodynamics: variant
+                .control_aerodynamics
+                .unwrap_or(inputs.case.aerodynamics.control_aerodynamics),
+            shape_reference: inputs.case.aerodynamics.shape_reference,
+            position: true,
+            ..ModelOptions::default()
+        };
+        let flight = &inputs.case.flight;
+        let point = FlightPoint {
+            speed: inputs.speed(),
+            altitude: flight.altitude,
+            path_angle_rad: flight.path_angle_deg.to_radians(),
+            control: flight.trim_control.clone(),
+        };
+        Ok(Self {
+            variant: variant.clone(),
+            basis,
+            mass,
+            damping,
+            strips,
+            aircraft,
+            options,
+            point,
+            notes,
+        })
+    }
+
+    /// Trims the model.
+    ///
+    /// # Errors
+    /// As [`trim`].
+    pub fn trim(&self) -> Result<(EquationsOfMotion, Trim), Error> {
+        Ok(trim(&self.aircraft, self.options, &self.point)?)
+    }
+
+    /// Density of the flight point \[kg/m³\].
+    pub fn density(&self) -> f64 {
+        atmosphere::standard(self.point.altitude).density
+    }
+}
+
+fn damping(inputs: &Inputs, n_modes: usize) -> Result<Vec<f64>, Error> {
+    match &inputs.case.structure.damping_ratio {
+        Damping::Uniform(xi) => Ok(vec![*xi; n_modes]),
+        Damping::PerMode(list) if list.len() == n_modes => Ok(list.clone()),
+        Damping::PerMode(list) => Err(Error::Mismatch {
+            what: "structure.damping_ratio".into(),
+            found: format!("{} ratios", list.len()),
+            expected: format!("one ratio for all, or {n_modes}: one for each mode"),
+        }),
+    }
+}
+
+fn assemble(
+    inputs: &Inputs,
+    variant: &VariantCase,
+    basis: &ModalBasis,
+    mass: &MassProperties,
+    damping: &[f64],
+    set: &StripSet,
+    notes: &mut Vec<String>,
+) -> Result<Aircraft, Error> {
+    let case = &inputs.case;
+    let geometry = &inputs.geometry;
+    let avl_options = AvlOptions {
+        cg: mass.cg,
+        moment_point: [geometry.x_ref, geometry.y_ref, geometry.z_ref],
+        drag: case.aerodynamics.drag,
+    };
+    check_moment_point(inputs, notes);
+    let (mut rigid, controls, avl_reference) = from_avl(&inputs.derivatives, &avl_options)?;
+    let reference = case.reference.map_or(avl_reference, |r| ReferenceShape {
+        area: r.area,
+        chord: r.chord,
+        span: r.span,
+    });
+    let mut aircraft_controls = controls;
+    if variant.corrections
+        && let Some(corrections) = &inputs.longitudinal
+    {
+        let source = case.corrections.as_ref();
+        let elevator = source
+            .and_then(|c| c.elevator.clone())
+            .unwrap_or_else(|| case.flight.trim_control.clone());
+        let index = aircraft_controls
+            .iter()
+            .position(|c| *c == elevator)
+            .ok_or_else(|| Error::UnknownName {
+                kind: "control",
+                name: elevator.clone(),
+                known: aircraft_controls.join(", "),
+            })?;
+        corrections.apply(&mut rigid, index);
+        notes.push(format!(
+            "longitudinal derivatives: {}",
+            source.map_or("", |c| c.provenance.as_str())
+        ));
+    }
+
+    let strips = &set.strips;
+    let spread = control_loads(
+        geometry,
+        &aircraft_controls,
+        &rigid,
+        &reference,
+        &set.records,
+        strips,
+        mass.cg,
+    );
+    notes.extend(spread.notes);
+    let of_records = |f: &dyn Fn(&albatross_strip::slopes::StripRecord) -> f64| -> Vec<f64> {
+        set.records.iter().map(f).collect()
+    };
+    let (alpha, cl0, sweep) = (
+        of_records(&|r| r.cl_alpha),
+        of_records(&|r| r.cl0),
+        of_records(&|r| r.sweep_rad),
+    );
+    let form = case.aerodynamics.dihedral;
+    let given = AnalyticLift {
+        alpha: &alpha,
+        cl0: &cl0,
+        sweep_rad: &sweep,
+        cg_xz: [mass.cg[0], mass.cg[2]],
+        form,
+    };
+    let motion = StripLoads {
+        lift: analytic_lift(strips, &given, &reference),
+        moment: Mat::from_fn(strips.len(), 5, |j, x| {
+            if x == 0 { set.records[j].cm_alpha } else { 0.0 }
+        }),
+    };
+    let at_zero = StripLoads {
+        lift: Mat::from_fn(strips.len(), 1, |j, _| cl0[j]),
+        moment: Mat::from_fn(strips.len(), 1, |j, _| set.records[j].cm0),
+    };
+    let theory = StripTheory {
+        downwash_point: case.aerodynamics.downwash_point,
+        apparent_mass_factor: case.aerodynamics.apparent_mass_factor,
+    };
+    let mu = basis.generalized_masses();
+    let structure = Structure::modal(&mu, &basis.omegas_rad_s(), damping)?;
+    let split = case.aerodynamics.split;
+    let rigid_shapes = StripShapes::rigid_body(strips, form, mass.cg[0], mass.cg[2]);
+    let q_0 = rigid_to_elastic(strips, &set.shapes, &at_zero, &reference)?;
+    let elastic = ElasticPart {
+        rigid_rows: generalized_forces(strips, &rigid_shapes, &set.shapes, &theory, split)?,
+        q_x: rigid_to_elastic(strips, &set.shapes, &motion, &reference)?,
+        q_u: rigid_to_elastic(strips, &set.shapes, &spread.loads, &reference)?,
+        q_0: (0..q_0.nrows()).map(|k| q_0[(k, 0)]).collect(),
+        control_incidence: spread.incidence,
+        model: AeroelasticModel::try_new(
+            structure,
+            strips.clone(),
+            set.shapes.clone(),
+            &theory,
+            split,
+            &JONES,
+        )?,
+    };
+    Ok(Aircraft {
+        mass: mass.mass,
+        inertia: mass.inertia_body_axes(),
+        gravity: case.flight.gravity,
+        reference,
+        controls: std::mem::take(&mut aircraft_controls),
+        rigid,
+        engines: engines(inputs, variant, basis, mass)?,
+        elastic: Some(elastic),
+        sensors: case
+            .sensors
+            .iter()
+            .map(|s| sensor(s, basis, mass))
+            .collect::<Result<_, _>>()?,
+    })
+}
+
+/// The .st file prints its moment point to five digits: the geometry file's is used if they agree so far.
+fn check_moment_point(inputs: &Inputs, notes: &mut Vec<String>) {
+    let printed = &inputs.derivatives.run.reference;
+    let geometry = &inputs.geometry;
+    for (axis, printed, exact) in [
+        ("Xref", printed.x_ref, geometry.x_ref),
+        ("Zref", printed.z_ref, geometry.z_ref),
+    ] {
+        if (printed - exact).abs() > 1e-4 * exact.abs().max(1.0) {
+            notes.push(format!(
+                "{axis} is {printed} in the .st file and {exact} in the geometry file; the geometry file's is used: \
+                 check that the two belong together"
+            ));
+        }
+    }
+}
+
+fn engines(
+    inputs: &Inputs,
+    variant: &VariantCase,
+    basis: &ModalBasis,
+    mass: &MassProperties,
+) -> Result<Vec<Engine>, Error> {
+    if variant.thrust_line == ThrustLine::ThroughCg || inputs.case.engines.is_empty() {
+        return Ok(vec![Engine::through_cg()]);
+    }
+    let total: f64 = inputs.case.engines.iter().map(|e| e.share).sum();
+    if (total - 1.0).abs() > 1e-9 {
+        return Err(Error::Mismatch {
+            what: "shares of the engines".into(),
+            found: format!("a sum of {total}"),
+            expected: "a sum of 1".into(),
+        });
+    }
+    inputs
+        .case
+        .engines
+        .iter()
+        .map(|engine| {
+            let (sin_i, cos_i) = engine.incidence_deg.to_radians().sin_cos();
+            let (sin_t, cos_t) = engine.toe_deg.to_radians().sin_cos();
+            let direction = [cos_i * cos_t, sin_t, -sin_i * cos_t];
+            let shapes = basis.shape_at(engine.grid.into())?;
+            // Body axes against structural axes: x and z change sign.
+            let modal_work = shapes
+                .iter()
+                .map(|s| -direction[0] * s[0] + direction[1] * s[1] - direction[2] * s[2])
+                .collect();
+            Ok(Engine {
+                share: engine.share,
+                position: position(engine.grid, basis, mass)?,
+                direction,
+                modal_work,
+            })
+        })
+        .collect()
+}
+
+/// Position of a grid in body axes from the centre of gravity.
+fn position(grid: u32, basis: &ModalBasis, mass: &MassProperties) -> Result<[f64; 3], Error> {
+    // An unknown grid gets the basis's own error with the nearest numbers.
+    basis.shape_at(grid.into())?;
+    let at = basis
+        .grid_index(grid.into())
+        .and_then(|i| basis.grids.get(i))
+        .map_or([0.0; 3], |g| g.position);
+    Ok(mass.to_body_axes(at))
+}
+
+fn sensor(case: &SensorCase, basis: &ModalBasis, mass: &MassProperties) -> Result<Sensor, Error> {
+    let point = match case.grid {
+        None => None,
+        Some(grid) => {
+            let shapes = basis.shape_at(grid.into())?;
+            Some(SensorPoint {
+                position: position(grid, basis, mass)?,
+                translation_up: shapes.iter().map(|s| s[2]).collect(),
+                rotation_nose_up: shapes.iter().map(|s| s[4]).collect(),
+            })
+        }
+    };
+    Ok(Sensor {
+        name: case.name.clone(),
+        quantity: case.quantity,
+        point,
+    })
+}
