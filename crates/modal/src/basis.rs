@@ -107,7 +107,7 @@ impl ModalBasis {
     /// Checks and classifies modes that any tool produced.
     ///
     /// # Errors
-    /// [`Error::NoModes`], [`Error::DuplicateGrid`], [`Error::ShapeLength`], [`Error::BadMode`] for a number that is
+    /// [`Error::NoModes`], [`Error::DuplicateGrid`], [`Error::BadPosition`], [`Error::ShapeLength`], [`Error::BadMode`] for a number that is
     /// not finite or a frequency or generalised mass that is not positive, [`Error::BadMassMatrix`];
     /// [`Error::NotMeanAxes`] beyond the tolerance of `options` unless they say otherwise;
     /// [`Error::BadOption`].
@@ -262,6 +262,9 @@ impl ModalBasis {
 fn index_of(grids: &[BasisGrid]) -> Result<BTreeMap<Id, usize>, Error> {
     let mut index = BTreeMap::new();
     for (i, grid) in grids.iter().enumerate() {
+        if let Some(&value) = grid.position.iter().find(|v| !v.is_finite()) {
+            return Err(Error::BadPosition { id: grid.id, value });
+        }
         if index.insert(grid.id, i).is_some() {
             return Err(Error::DuplicateGrid { id: grid.id });
         }

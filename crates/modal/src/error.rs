@@ -108,6 +108,14 @@ pub enum Error {
         /// The number.
         id: Id,
     },
+    /// A grid has a coordinate that is not finite.
+    #[error("grid {id} has the coordinate {value}; positions are finite numbers in metres")]
+    BadPosition {
+        /// The grid.
+        id: Id,
+        /// The coordinate.
+        value: f64,
+    },
     /// The shape of a mode has another length than the list of grids.
     #[error("mode {mode} has a shape of {found} grids, the basis has {expected}")]
     ShapeLength {

@@ -29,32 +29,51 @@ pub fn mac(a: &ModalBasis, b: &ModalBasis) -> Result<Mat<f64>, Error> {
     if common.is_empty() {
         return Err(Error::NoCommonGrids);
     }
-    let all_of_a = common.len() == a.grids.len();
-    let all_of_b = common.len() == b.grids.len();
-    // Shapes of one basis in the order of the other's grids.
-    let on_a = |shape: &[[f64; 6]]| scatter(shape, a.grids.len(), common.iter().map(|&(i, j)| (j, i)));
-    let on_b = |shape: &[[f64; 6]]| scatter(shape, b.grids.len(), common.iter().copied());
-    let shapes = |basis: &ModalBasis, f: &dyn Fn(&[[f64; 6]]) -> Vec<[f64; 6]>| {
-        basis.modes.iter().map(|m| f(&m.shape)).collect::<Vec<_>>()
+    let identity = |n: usize| (0..n).map(|i| (i, i)).collect::<Vec<_>>();
+    let swapped: Vec<(usize, usize)> = common.iter().map(|&(i, j)| (j, i)).collect();
+    // Both families on the grids of `a`, or on those of `b`.
+    let on_a = |map_a: &[(usize, usize)]| {
+        (
+            on_grids(a, a.grids.len(), map_a),
+            on_grids(b, a.grids.len(), &swapped),
+        )
     };
-    if let (Some(mass), true) = (&a.mass_matrix, all_of_a) {
-        let (left, right) = (shapes(a, &|s| s.to_vec()), shapes(b, &on_a));
-        return Ok(matrix(&left, &right, |s| mass.apply(s)));
-    }
-    if let (Some(mass), true) = (&b.mass_matrix, all_of_b) {
-        let (left, right) = (shapes(a, &on_b), shapes(b, &|s| s.to_vec()));
-        return Ok(matrix(&left, &right, |s| mass.apply(s)));
-    }
-    let translations = |s: &[[f64; 6]]| {
-        s.iter()
-            .map(|[x, y, z, ..]| [*x, *y, *z, 0.0, 0.0, 0.0])
-            .collect()
+    let on_b = || {
+        (
+            on_grids(a, b.grids.len(), &common),
+            on_grids(b, b.grids.len(), &identity(b.grids.len())),
+        )
     };
-    let restrict = |s: &[[f64; 6]]| scatter(s, a.grids.len(), common.iter().map(|&(i, _)| (i, i)));
-    Ok(matrix(&shapes(a, &restrict), &shapes(b, &on_a), translations))
+    match (&a.mass_matrix, &b.mass_matrix) {
+        (Some(mass), _) if common.len() == a.grids.len() => {
+            let (left, right) = on_a(&identity(a.grids.len()));
+            Ok(matrix(&left, &right, |s| mass.apply(s)))
+        }
+        (_, Some(mass)) if common.len() == b.grids.len() => {
+            let (left, right) = on_b();
+            Ok(matrix(&left, &right, |s| mass.apply(s)))
+        }
+        _ => {
+            let only_common: Vec<(usize, usize)> = common.iter().map(|&(i, _)| (i, i)).collect();
+            let (left, right) = on_a(&only_common);
+            let translations = |s: &Shape| s.iter().map(|&[x, y, z, ..]| [x, y, z, 0.0, 0.0, 0.0]).collect();
+            Ok(matrix(&left, &right, translations))
+        }
+    }
 }
 
-fn scatter(shape: &[[f64; 6]], len: usize, map: impl Iterator<Item = (usize, usize)>) -> Vec<[f64; 6]> {
+type Shape = [[f64; 6]];
+
+/// Every shape of a basis on `len` grids, by (from, to) pairs of indices; zero elsewhere.
+fn on_grids(basis: &ModalBasis, len: usize, map: &[(usize, usize)]) -> Vec<Vec<[f64; 6]>> {
+    basis
+        .modes
+        .iter()
+        .map(|m| scatter(&m.shape, len, map.iter().copied()))
+        .collect()
+}
+
+fn scatter(shape: &Shape, len: usize, map: impl Iterator<Item = (usize, usize)>) -> Vec<[f64; 6]> {
     let mut out = vec![[0.0; 6]; len];
     for (from, to) in map {
         if let (Some(source), Some(target)) = (shape.get(from), out.get_mut(to)) {
@@ -67,7 +86,7 @@ fn scatter(shape: &[[f64; 6]], len: usize, map: impl Iterator<Item = (usize, usi
 fn matrix(
     left: &[Vec<[f64; 6]>],
     right: &[Vec<[f64; 6]>],
-    weigh: impl Fn(&[[f64; 6]]) -> Vec<[f64; 6]>,
+    weigh: impl Fn(&Shape) -> Vec<[f64; 6]>,
 ) -> Mat<f64> {
     let weighed: Vec<_> = right.iter().map(|s| weigh(s)).collect();
     let own_left: Vec<f64> = left.iter().map(|s| dot(s, &weigh(s))).collect();

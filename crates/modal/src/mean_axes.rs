@@ -75,6 +75,15 @@ impl RigidBody {
         let shapes: [Vec<[f64; 6]>; 6] = std::array::from_fn(|i| rigid_shape(i, cg, positions));
         let momenta: [Vec<[f64; 6]>; 6] = std::array::from_fn(|i| mass.apply(&shapes[i]));
         let rigid_mass = Matrix6::from_fn(|i, j| dot(&shapes[i], &momenta[j]));
+        if let Some(i) = (0..6).find(|&i| !(rigid_mass[(i, i)] >= 0.0 && rigid_mass[(i, i)].is_finite())) {
+            return Err(Error::BadMassMatrix {
+                problem: format!(
+                    "gives {} for rigid {}; check the mass cards for wrong or negative numbers",
+                    rigid_mass[(i, i)],
+                    RIGID_DIRECTIONS[i]
+                ),
+            });
+        }
         let translation = rigid_mass[(0, 0)].max(rigid_mass[(1, 1)]).max(rigid_mass[(2, 2)]);
         let rotation = rigid_mass[(3, 3)].max(rigid_mass[(4, 4)]).max(rigid_mass[(5, 5)]);
         let scale = Vector6::from_fn(|i, _| {

@@ -70,7 +70,8 @@ impl MirrorPairs {
             let [kx, ky, kz] = key(p);
             let mut found: Vec<usize> = Vec::new();
             for n in 0..27 {
-                let neighbour = [kx + n % 3 - 1, ky + n / 3 % 3 - 1, kz + n / 9 - 1];
+                let step = |k: i64, d: i64| k.saturating_add(d - 1);
+                let neighbour = [step(kx, n % 3), step(ky, n / 3 % 3), step(kz, n / 9)];
                 let candidates = cells.get(&neighbour).map_or(&[][..], Vec::as_slice);
                 found.extend(candidates.iter().filter(|&&i| {
                     let close = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;

@@ -36,18 +36,20 @@ pub(crate) fn compare(
     let factor = deck.weight_to_mass();
     let own = model.rigid_mass(reference).map(|row| row.map(|m| m / factor));
     let size = |i: usize| own[i][i].max(weight.mo[i][i]).max(0.0).sqrt();
-    let mut worst = (0.0, 0, 0);
-    for i in 0..6 {
-        for j in i..6 {
-            let scale = size(i) * size(j);
-            let difference = (own[i][j] - weight.mo[i][j]).abs();
-            if scale > 0.0 && difference > worst.0 * scale {
-                worst = (difference / scale, i, j);
-            }
+    let upper = (0..6).flat_map(|i| (i..6).map(move |j| (i, j)));
+    let relative = |&(i, j): &(usize, usize)| {
+        let scale = size(i) * size(j);
+        if scale > 0.0 {
+            (own[i][j] - weight.mo[i][j]).abs() / scale
+        } else {
+            0.0
         }
-    }
-    let (relative, i, j) = worst;
-    if relative > 2e-6 {
+    };
+    let worst = upper
+        .max_by(|p, q| relative(p).total_cmp(&relative(q)))
+        .unwrap_or_default();
+    let (i, j) = worst;
+    if relative(&worst) > 2e-6 {
         notes.push(format!(
             "the deck's mass differs from the grid point weight generator: {} / {} is {:.7e} by the deck and {:.7e} as \
              printed. Deck and results are of different mass states, or the program treats a mass card differently",

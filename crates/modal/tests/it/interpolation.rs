@@ -138,8 +138,8 @@ fn val_single_grid_carries_stations_rigidly() {
     let got = interpolate(&basis, &axis(1), &[station], Method::Cubic).expect("one grid");
     // T + R x (0, 1, 0.5)
     let expected = [0.1 + 0.5 * 0.5 - 0.6, 0.2 - 0.4 * 0.5, 0.3 + 0.4];
-    for d in 0..3 {
-        assert!((got.translation[d][(0, 0)] - expected[d]).abs() < 1e-15);
+    for (t, e) in got.translation.iter().zip(expected) {
+        assert!((t[(0, 0)] - e).abs() < 1e-15);
     }
     assert_eq!(got.x_lra, [10.0]);
 }
