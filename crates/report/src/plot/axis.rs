@@ -72,7 +72,7 @@ impl Axis {
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         match self.scale {
             _ if value.is_nan() || value.abs() > LARGEST => None,
-            Scale::Log => (value >= f64::MIN_POSITIVE).then(|| value.log10()),
+            Scale::Log => (value >= 1.0 / LARGEST).then(|| value.log10()),
             Scale::Linear | Scale::Degrees | Scale::Decibels => Some(value),
         }
     }
@@ -256,7 +256,13 @@ fn around(scale: Scale, extent: Extent, margin: Margin) -> (f64, f64) {
         Margin::Snug | Margin::Airy => 1.06,
     };
     let half = (half * room).max(least);
-    (middle - half, middle + half)
+    let (low, high) = (middle - half, middle + half);
+    // Powers of ten that are doubles.
+    if scale == Scale::Log {
+        (low.max(-307.0), high.min(307.0))
+    } else {
+        (low, high)
+    }
 }
 
 #[cfg(test)]
@@ -295,6 +301,13 @@ mod tests {
             assert!(ruler.high > ruler.low && ruler.high.is_finite(), "{values:?}");
             assert!(ruler.ticks.major.len() >= 2, "{values:?}: {:?}", ruler.ticks);
         }
+    }
+
+    #[test]
+    fn a_logarithmic_axis_holds_all_but_the_last_doubles() {
+        let ruler = fitted(&Axis::log("x", ""), &[1e-300, 1e300], Margin::Airy);
+        assert_eq!((ruler.low, ruler.high), (-307.0, 307.0));
+        assert!(ruler.ticks.major.len() >= 2);
     }
 
     #[test]
