@@ -243,8 +243,8 @@ mod tests {
         assert_eq!(general(4e-5, 12, 5).unwrap(), " 0.40000E-04");
         assert_eq!(general(0.05, 12, 5).unwrap(), " 0.50000E-01");
         assert_eq!(general(-0.049_809_7, 14, 6).unwrap(), " -0.498097E-01");
-        assert_eq!(general(4210.857_37, 14, 6).unwrap(), "   4210.86    ");
-        assert_eq!(general(52686.87, 12, 4).unwrap(), "  0.5269E+05");
+        assert_eq!(general(4_210.857_37, 14, 6).unwrap(), "   4210.86    ");
+        assert_eq!(general(52_686.87, 12, 4).unwrap(), "  0.5269E+05");
         assert_eq!(general(1e-120, 12, 5).unwrap(), " 0.10000-119");
         // Rounding decides: 0.0999999 prints as 0.10000.
         assert_eq!(general(0.099_999_99, 12, 5).unwrap(), " 0.10000    ");

@@ -202,7 +202,8 @@ impl<'a> Line<'a> {
     /// The row is read by column. A row whose points do not stand where the format puts them was re-spaced by
     /// another tool: it is then read by blanks, if the count is right.
     pub(crate) fn row(&self, start: usize, fields: &[Field]) -> Result<Vec<f64>, AvlError> {
-        if !self.is_aligned(start, fields) {
+        let misplaced = self.misplaced_point(start, fields);
+        if misplaced.is_some() {
             let tail = self.text.get(start.min(self.text.len())..).unwrap_or(self.text);
             let words: Vec<&str> = tail.split_whitespace().take(fields.len() + 1).collect();
             if words.len() == fields.len() {
@@ -220,7 +221,13 @@ impl<'a> Line<'a> {
             out.push(self.real(column, field.width, field.name)?);
             column += field.width;
         }
-        Ok(out)
+        match misplaced {
+            None => Ok(out),
+            Some(field) => Err(self.syntax(format!(
+                "`{}` with its decimal point where AVL prints it, or all numbers apart",
+                field.name
+            ))),
+        }
     }
 
     /// A row number in columns `start..start + width`, then the numbers of the row. As [`Line::row`].
@@ -232,7 +239,7 @@ impl<'a> Line<'a> {
         fields: &[Field],
     ) -> Result<(usize, Vec<f64>), AvlError> {
         let after = start + width;
-        if !self.is_aligned(after, fields) {
+        if self.misplaced_point(after, fields).is_some() {
             let words: Vec<&str> = self.text.split_whitespace().take(fields.len() + 2).collect();
             if let Some((index, numbers)) = words.split_first()
                 && numbers.len() == fields.len()
@@ -248,18 +255,17 @@ impl<'a> Line<'a> {
         Ok((self.integer(start, width, name)?, self.row(after, fields)?))
     }
 
-    /// Whether the decimal points of `Fw.d` fields stand in their columns.
-    fn is_aligned(&self, start: usize, fields: &[Field]) -> bool {
+    /// The first `Fw.d` field whose point does not stand in its column, or that has something before it.
+    fn misplaced_point<'f>(&self, start: usize, fields: &'f [Field]) -> Option<&'f Field> {
         let mut column = start;
-        fields.iter().all(|field| {
+        fields.iter().find(|field| {
             let blank = columns(self.text, column, field.skip).trim().is_empty();
             column += field.skip;
             let text = columns(self.text, column, field.width);
             column += field.width;
-            let Some(point) = field.decimals.and_then(|d| field.width.checked_sub(d + 1)) else {
-                return blank;
-            };
-            blank && (columns(text, point, 1) == "." || text.contains('*') || text.trim().is_empty())
+            let point = field.decimals.and_then(|d| field.width.checked_sub(d + 1));
+            let placed = point.is_none_or(|p| columns(text, p, 1) == ".");
+            !(blank && (placed || text.contains('*') || text.trim().is_empty()))
         })
     }
 }
@@ -401,6 +407,15 @@ impl<'a> Source<'a> {
                 return line_reals(&line, labels);
             }
         }
+    }
+
+    /// Refuses a last line that ends before a column: it was cut inside a number.
+    pub(crate) fn refuse_cut(&self, line: &Line<'_>, end: usize, expected: &str) -> Result<(), AvlError> {
+        let is_last = self.lines.iter().skip(line.number).all(|l| l.trim().is_empty());
+        if is_last && line.text.trim_end().len() < end {
+            return Err(self.truncated(expected));
+        }
+        Ok(())
     }
 
     /// The file ended before something.

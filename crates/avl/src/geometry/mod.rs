@@ -45,6 +45,34 @@ pub struct Geometry {
     pub bodies: Vec<Body>,
 }
 
+impl Geometry {
+    /// Names of the controls in AVL's order: that in which they first come (d01, d02, ...).
+    pub fn control_names(&self) -> Vec<&str> {
+        distinct(self.sections().flat_map(|s| &s.controls).map(|c| c.name.as_str()))
+    }
+
+    /// Names of the design variables in AVL's order (g01, ...).
+    pub fn design_names(&self) -> Vec<&str> {
+        distinct(self.sections().flat_map(|s| &s.designs).map(|d| d.name.as_str()))
+    }
+
+    /// All sections, surface after surface.
+    fn sections(&self) -> impl Iterator<Item = &Section> {
+        self.surfaces.iter().flat_map(|s| &s.sections)
+    }
+}
+
+/// Each name once, where it first comes.
+fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
+    let mut out = Vec::new();
+    for name in names {
+        if !out.contains(&name) {
+            out.push(name);
+        }
+    }
+    out
+}
+
 /// Vortex core radii of AVL 3.5x.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoreRadii {

@@ -152,14 +152,23 @@ fn stability_column(table: &Table<Coefficient>, suffix: Suffix) -> Result<Stabil
 /// Neutral point and spiral ratio, where they are defined.
 fn read_footer(source: &mut Source<'_>, layout: Layout) -> Result<(Option<f64>, Option<f64>), AvlError> {
     if layout == Layout::Mrf {
-        let neutral_point = mrf::labelled(source, "Neutral point  Xnp")?.real(0, 23, "Xnp")?;
-        let spiral = mrf::labelled(source, "Clb Cnr / Clr Cnb")?.real(0, 23, "Clb Cnr / Clr Cnb")?;
+        let neutral_point = mrf::labelled(source, "Neutral point  Xnp")?;
+        let neutral_point = mrf::real(&neutral_point, 0, "Xnp")?;
+        let spiral = mrf::labelled(source, "Clb Cnr / Clr Cnb")?;
+        let spiral = mrf::real(&spiral, 0, "Clb Cnr / Clr Cnb")?;
         return Ok((mrf::defined(neutral_point), mrf::defined(spiral)));
     }
     let (mut neutral_point, mut spiral) = (None, None);
     while let Some(line) = source.read() {
         neutral_point = neutral_point.or(line.labelled_real("Xnp", 11).transpose()?);
         spiral = spiral.or(line.labelled_real("Clb Cnr / Clr Cnb", 11).transpose()?);
+        if let Some(equals) = line.text.find('=') {
+            source.refuse_cut(
+                &line,
+                equals + 12,
+                "the end of the neutral point or of the spiral ratio",
+            )?;
+        }
     }
     Ok((neutral_point, spiral))
 }

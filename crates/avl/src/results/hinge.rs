@@ -100,7 +100,7 @@ fn read_mrf(source: &mut Source<'_>) -> Result<HingeMoments, AvlError> {
         let line = mrf::labelled(source, "Control Hinge Moments")?;
         controls.push(HingeMoment {
             name: columns(line.text, 25, 16).trim().to_owned(),
-            c_hinge: line.real(0, 23, "Chinge")?,
+            c_hinge: mrf::real(&line, 0, "Chinge")?,
             deflection_deg: None,
             moment_n_m: None,
         });

@@ -271,6 +271,8 @@ fn read_loading(source: &mut Source<'_>) -> Result<StripLoads, AvlError> {
         } else {
             &OLD_LOADING
         };
+        let end = fields.iter().map(|f| f.skip + f.width).sum();
+        source.refuse_cut(&line, end, "the end of a strip")?;
         strips.push(load(&line, &line.row(0, fields)?)?);
     }
     Ok(StripLoads { strips })

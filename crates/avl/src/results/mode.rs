@@ -59,6 +59,8 @@ impl Eigenvalues {
                     out.title = comment.trim().to_owned();
                 }
             } else if !text.is_empty() {
+                // Eight columns and twice eighteen, of which the last four may be blank.
+                source.refuse_cut(&line, 40, "the end of an eigenvalue")?;
                 out.eigenvalues.push(eigenvalue(&line)?);
             }
         }
@@ -105,6 +107,12 @@ impl SystemMatrix {
         for _ in 0..STATES {
             let line = source.require("twelve rows of the system matrix")?;
             let (a, b) = system_row(&line, out.controls.len())?;
+            let end = if out.controls.is_empty() {
+                1 + 10 * STATES
+            } else {
+                120 + 12 * out.controls.len()
+            };
+            source.refuse_cut(&line, end, "the end of the system matrix")?;
             out.a.push(a);
             out.b.push(b);
         }

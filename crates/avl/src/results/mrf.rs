@@ -2,7 +2,7 @@
 
 use super::{AxisOrientation, Reference};
 use crate::error::AvlError;
-use crate::source::{Line, Source};
+use crate::source::{Line, Source, columns};
 
 /// Width of a number.
 const WIDTH: usize = 23;
@@ -15,6 +15,15 @@ pub(crate) fn defined(value: f64) -> Option<f64> {
     (value > UNDEFINED).then_some(value)
 }
 
+/// One number. It ends in the last of its columns: a shorter one was cut.
+pub(crate) fn real(line: &Line<'_>, start: usize, name: &str) -> Result<f64, AvlError> {
+    let value = line.real(start, WIDTH, name)?;
+    if columns(line.text, start + WIDTH - 1, 1).trim().is_empty() {
+        return Err(line.syntax(format!("`{name}` in columns {} to {}", start + 1, start + WIDTH)));
+    }
+    Ok(value)
+}
+
 /// Numbers before the `|` of a line, `start` columns in, and the names after it.
 pub(crate) fn reals<const N: usize>(
     line: &Line<'_>,
@@ -23,7 +32,7 @@ pub(crate) fn reals<const N: usize>(
 ) -> Result<[f64; N], AvlError> {
     let mut out = [0.0; N];
     for (k, (value, name)) in out.iter_mut().zip(names).enumerate() {
-        *value = line.real(start + k * WIDTH, WIDTH, name)?;
+        *value = real(line, start + k * WIDTH, name)?;
     }
     Ok(out)
 }
@@ -33,9 +42,7 @@ pub(crate) fn all_reals(line: &Line<'_>) -> Result<Vec<f64>, AvlError> {
     let (numbers, label) = line.text.split_once('|').unwrap_or((line.text, ""));
     // Two blanks stand between the numbers and the bar.
     let count = (numbers.trim_end().len() + WIDTH / 2) / WIDTH;
-    (0..count)
-        .map(|k| line.real(k * WIDTH, WIDTH, label.trim()))
-        .collect()
+    (0..count).map(|k| real(line, k * WIDTH, label.trim())).collect()
 }
 
 /// Reads the next line, whose label must hold a text.

@@ -240,7 +240,7 @@ fn read_mrf(source: &mut Source<'_>) -> Result<RunState, AvlError> {
     let mut read = |label, names: &[&'static str]| -> Result<(), AvlError> {
         let line = mrf::labelled(source, label)?;
         for (k, name) in names.iter().enumerate() {
-            let value = line.real(23 * k, 23, name)?;
+            let value = mrf::real(&line, 23 * k, name)?;
             for (label, target) in state.labels() {
                 if label == *name {
                     *target = value;
@@ -274,7 +274,7 @@ fn read_mrf_values(source: &mut Source<'_>, heading: &str) -> Result<Vec<NamedVa
         let line = source.require("a control and its deflection")?;
         let name = crate::source::columns(line.text, 23, 256).trim().to_owned();
         out.push(NamedValue {
-            value: line.real(0, 23, &name)?,
+            value: mrf::real(&line, 0, &name)?,
             name,
         });
     }

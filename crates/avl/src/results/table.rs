@@ -6,6 +6,9 @@ use super::{NamedColumn, NamedValue};
 use crate::error::{AvlError, Location};
 use crate::source::{Line, Source};
 
+/// Width of a number.
+const WIDTH: usize = 11;
+
 /// The variable that a derivative's name ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Suffix {
@@ -87,6 +90,9 @@ impl<C: Copy + PartialEq> Table<C> {
                 None => continue,
             };
             index = self.read_row(&line, start, index, prefixes, axes)?;
+            // `F11.6` ends in a digit: a shorter last line was cut.
+            let equals = line.text.rfind('=').unwrap_or(0);
+            source.refuse_cut(&line, equals + 1 + WIDTH, "the end of a row of derivatives")?;
         }
         Ok(())
     }
@@ -100,7 +106,6 @@ impl<C: Copy + PartialEq> Table<C> {
         prefixes: &[(&str, C)],
         axes: &str,
     ) -> Result<usize, AvlError> {
-        const WIDTH: usize = 11;
         let mut index = first;
         let mut from = start;
         while let Some(equals) = line.text.get(from..).and_then(|t| t.find('=')).map(|i| from + i) {

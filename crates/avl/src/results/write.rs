@@ -1,7 +1,8 @@
 //! Writers of `.ft`, `.st` and `.fs` in the text layout of AVL 3.52, column for column.
 //!
-//! Not stored, so not reproduced from a file that was read: the leading blank of a run-case title other than
-//! AVL's own `-unnamed-`, and names or titles longer than AVL's fields.
+//! A file that AVL 3.52 wrote is reproduced byte for byte, but for what is not stored: the leading blanks of
+//! titles (AVL's own `-unnamed-` keeps its one). Titles and surface names longer than AVL's fields are cut, as
+//! AVL does.
 
 use std::fmt::Write as _;
 
@@ -131,6 +132,14 @@ impl RunState {
         for values in [&self.controls, &self.designs] {
             out.push('\n');
             for NamedValue { name, value } in values {
+                if name.chars().count() > 16 {
+                    let (field, text) = ("control".to_owned(), name.clone());
+                    return Err(AvlError::BadText {
+                        field,
+                        text,
+                        reason: "is longer than 16 characters",
+                    });
+                }
                 let _ = writeln!(out, "   {}={}", a("control", name, 16)?, f(name, *value, 10, 5)?);
             }
         }

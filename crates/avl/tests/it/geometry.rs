@@ -76,6 +76,12 @@ fn val_geometry_of_the_surrogate() {
             x_range: None
         }
     );
+    // AVL's order, as its .ft lists them.
+    assert_eq!(
+        g.control_names(),
+        ["aileron_in", "aileron_out", "elevator", "rudder"]
+    );
+    assert!(g.design_names().is_empty());
     // The 220 strips and 5274 vortices that AVL reports.
     let strips = |s: &Surface| {
         let own = s.spanwise.map(|p| p.count);

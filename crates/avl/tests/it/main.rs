@@ -4,9 +4,13 @@
 mod support;
 
 #[cfg(test)]
+mod damage;
+#[cfg(test)]
 mod geometry;
 #[cfg(test)]
 mod inputs;
+#[cfg(test)]
+mod legacy;
 #[cfg(test)]
 mod results;
 #[cfg(test)]
