@@ -1,6 +1,8 @@
 //! Flight dynamics of flexible high-aspect-ratio aircraft: the facade and the case file.
 
+pub mod analysis;
 pub mod case;
+pub mod compare;
 pub mod controls;
 pub mod inputs;
 pub mod model;

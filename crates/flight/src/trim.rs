@@ -48,6 +48,16 @@ pub struct Trim {
     pub iterations: usize,
 }
 
+impl Trim {
+    /// True airspeed \[m/s\].
+    pub fn speed(&self) -> f64 {
+        match self.state.as_slice() {
+            [u, v, w, ..] => (u * u + v * v + w * w).sqrt(),
+            _ => 0.0,
+        }
+    }
+}
+
 /// Trims the aircraft and returns the equations with the reference shape set to the trim where the options say so.
 ///
 /// # Errors
