@@ -26,6 +26,8 @@ pub(crate) struct Line<'a> {
     pub(crate) number: usize,
     /// Text without its line end.
     pub(crate) text: &'a str,
+    /// Last line of the file, and without a line end: the file was probably cut in it.
+    pub(crate) is_open: bool,
 }
 
 /// Columns `start..start + width` counted from 0, cut where the line ends.
@@ -48,6 +50,12 @@ pub(crate) fn excerpt(text: &str) -> String {
     }
 }
 
+/// Whether a text may be a number that was cut, or nothing at all.
+fn is_start_of_number(text: &str) -> bool {
+    text.bytes()
+        .all(|b| b.is_ascii_digit() || b"+-.eEdD".contains(&b))
+}
+
 impl<'a> Line<'a> {
     /// Place of this line, or of a column of it (from 0).
     pub(crate) fn at(&self, column: Option<usize>) -> Location {
@@ -60,10 +68,23 @@ impl<'a> Line<'a> {
 
     /// The whole line is not what was expected.
     pub(crate) fn syntax(&self, expected: impl Into<String>) -> AvlError {
+        let expected = expected.into();
+        if self.is_open {
+            return self.cut(expected);
+        }
         AvlError::Syntax {
             at: self.at(None),
             found: excerpt(self.text),
-            expected: expected.into(),
+            expected,
+        }
+    }
+
+    /// The file ends in this line, before something.
+    pub(crate) fn cut(&self, expected: String) -> AvlError {
+        AvlError::Truncated {
+            file: self.file.to_owned(),
+            line: self.number,
+            expected,
         }
     }
 
@@ -136,6 +157,8 @@ impl<'a> Line<'a> {
                 field,
                 found: text,
             }
+        } else if self.is_open && self.text.trim_end().ends_with(found) && is_start_of_number(found) {
+            self.cut(format!("the end of `{field}`"))
         } else {
             let found = if text.is_empty() {
                 "(blank)".to_owned()
@@ -310,6 +333,7 @@ pub(crate) struct Source<'a> {
     pub(crate) file: &'a str,
     lines: Vec<&'a str>,
     next: usize,
+    is_open: bool,
 }
 
 impl<'a> Source<'a> {
@@ -320,6 +344,7 @@ impl<'a> Source<'a> {
             file,
             lines: text.lines().collect(),
             next: 0,
+            is_open: !text.ends_with('\n'),
         }
     }
 
@@ -330,20 +355,18 @@ impl<'a> Source<'a> {
 
     /// Line by index from 0.
     pub(crate) fn line(&self, index: usize) -> Option<Line<'a>> {
+        let is_open = self.is_open && index + 1 == self.lines.len();
         self.lines.get(index).map(|&text| Line {
             file: self.file,
             number: index + 1,
             text,
+            is_open,
         })
     }
 
     /// All lines.
     pub(crate) fn lines(&self) -> impl Iterator<Item = Line<'a>> + '_ {
-        self.lines.iter().enumerate().map(|(i, &text)| Line {
-            file: self.file,
-            number: i + 1,
-            text,
-        })
+        (0..self.lines.len()).filter_map(|i| self.line(i))
     }
 
     /// Index of the next line to be read.

@@ -304,3 +304,24 @@ fn respaced_tables_are_read_by_blanks() {
         .collect();
     assert_eq!(StripForces::parse(&respaced.join("\n"), "t.fs").unwrap(), whole);
 }
+
+/// Cut anywhere, inside a number too: the message says that the file was cut, and where it ends.
+#[test]
+fn files_cut_inside_a_line_are_called_truncated() {
+    for (name, at) in [
+        ("trim.st", 2200),
+        ("trim.st", 3000),
+        ("trim.fs", 12_000),
+        ("trim.fs", 11_977),
+        ("trim.ft", 700),
+    ] {
+        let text = fixture_text(&format!("f25-like/avl_out/{name}"));
+        let cut = &text[..at];
+        let error = parse_any(cut, name).unwrap_err();
+        let lines = cut.lines().count();
+        assert!(
+            matches!(&error, AvlError::Truncated { line, .. } if *line == lines),
+            "{error}"
+        );
+    }
+}
