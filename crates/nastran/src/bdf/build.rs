@@ -1,6 +1,5 @@
 //! Gathers interpreted cards and makes the deck of them.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::deck::{
@@ -13,17 +12,11 @@ use super::card::Card;
 use super::elements::{self, BarBlanks, BarDefaults};
 use super::fields::Fields;
 use super::lists::NeedsPoints;
+use super::merge::{Merge, Row, Rows, keep, keep_all};
 use super::points::{self, GridBlanks};
 use super::{constraints, properties};
 
-/// Card name, number, file and line.
-type Place = (&'static str, Id, u32, u32);
-
-/// Numbered cards in the order of the file.
-type Rows<T> = Vec<(Id, T)>;
-
-/// What has been read so far. Numbered cards are in lists, which are sorted at the end: decks are nearly sorted, and
-/// maps grow slowly.
+/// What has been read so far.
 #[derive(Default)]
 struct Tables {
     grids: Rows<(Grid, GridBlanks)>,
@@ -55,7 +48,6 @@ struct Tables {
 pub(super) struct Builder {
     files: Vec<Arc<str>>,
     remarks: Remarks,
-    places: Vec<Place>,
     tables: Tables,
     /// Unnumbered cards go straight into the deck.
     deck: Deck,
@@ -70,7 +62,6 @@ impl Builder {
         Self {
             files: vec![Arc::from(name)],
             remarks: Remarks::default(),
-            places: Vec::new(),
             tables: Tables::default(),
             deck: Deck::default(),
             bar_defaults: BarDefaults::default(),
@@ -113,9 +104,8 @@ impl Builder {
         let f = &mut fields;
         let t = &mut self.tables;
         let deck = &mut self.deck;
-        let places = &mut self.places;
         match card.name() {
-            b"GRID" => keep(&mut t.grids, "GRID", points::grid(f), f, places),
+            b"GRID" => keep(&mut t.grids, "GRID", points::grid(f), f),
             b"GRDSET" => {
                 let defaults = points::grdset(f);
                 if !f.failed {
@@ -133,45 +123,39 @@ impl Builder {
                 "CORD1R",
                 points::cord1(f, CoordinateKind::Rectangular),
                 f,
-                places,
             ),
             b"CORD1C" => keep_all(
                 &mut t.coordinate_systems,
                 "CORD1C",
                 points::cord1(f, CoordinateKind::Cylindrical),
                 f,
-                places,
             ),
             b"CORD1S" => keep_all(
                 &mut t.coordinate_systems,
                 "CORD1S",
                 points::cord1(f, CoordinateKind::Spherical),
                 f,
-                places,
             ),
             b"CORD2R" => keep(
                 &mut t.coordinate_systems,
                 "CORD2R",
                 points::cord2(f, CoordinateKind::Rectangular),
                 f,
-                places,
             ),
             b"CORD2C" => keep(
                 &mut t.coordinate_systems,
                 "CORD2C",
                 points::cord2(f, CoordinateKind::Cylindrical),
                 f,
-                places,
             ),
             b"CORD2S" => keep(
                 &mut t.coordinate_systems,
                 "CORD2S",
                 points::cord2(f, CoordinateKind::Spherical),
                 f,
-                places,
             ),
-            b"CBAR" => keep(&mut t.bars, "CBAR", elements::cbar(f), f, places),
-            b"CBEAM" => keep(&mut t.beams, "CBEAM", elements::cbeam(f), f, places),
+            b"CBAR" => keep(&mut t.bars, "CBAR", elements::cbar(f), f),
+            b"CBEAM" => keep(&mut t.beams, "CBEAM", elements::cbeam(f), f),
             b"BAROR" => {
                 self.bar_defaults = elements::bar_defaults(f);
                 deck.raw.push(raw(card, file));
@@ -180,42 +164,23 @@ impl Builder {
                 self.beam_defaults = elements::bar_defaults(f);
                 deck.raw.push(raw(card, file));
             }
-            b"CROD" => keep(&mut t.rods, "CROD", elements::crod(f), f, places),
-            b"CONROD" => keep(&mut t.conrods, "CONROD", elements::conrod(f), f, places),
-            b"CONM1" => keep(&mut t.conm1, "CONM1", elements::conm1(f), f, places),
-            b"CONM2" => keep(&mut t.conm2, "CONM2", elements::conm2(f), f, places),
-            b"CMASS1" => keep(
-                &mut t.scalar_masses,
-                "CMASS1",
-                elements::cmass(f, true, false),
-                f,
-                places,
-            ),
+            b"CROD" => keep(&mut t.rods, "CROD", elements::crod(f), f),
+            b"CONROD" => keep(&mut t.conrods, "CONROD", elements::conrod(f), f),
+            b"CONM1" => keep(&mut t.conm1, "CONM1", elements::conm1(f), f),
+            b"CONM2" => keep(&mut t.conm2, "CONM2", elements::conm2(f), f),
+            b"CMASS1" => keep(&mut t.scalar_masses, "CMASS1", elements::cmass(f, true, false), f),
             b"CMASS2" => keep(
                 &mut t.scalar_masses,
                 "CMASS2",
                 elements::cmass(f, false, false),
                 f,
-                places,
             ),
-            b"CMASS3" => keep(
-                &mut t.scalar_masses,
-                "CMASS3",
-                elements::cmass(f, true, true),
-                f,
-                places,
-            ),
-            b"CMASS4" => keep(
-                &mut t.scalar_masses,
-                "CMASS4",
-                elements::cmass(f, false, true),
-                f,
-                places,
-            ),
-            b"PMASS" => keep_all(&mut t.mass_properties, "PMASS", elements::pmass(f), f, places),
-            b"CELAS1" => keep(&mut t.springs, "CELAS1", elements::celas1(f), f, places),
-            b"CELAS2" => keep(&mut t.springs, "CELAS2", elements::celas2(f), f, places),
-            b"CBUSH" => keep(&mut t.bushes, "CBUSH", elements::cbush(f), f, places),
+            b"CMASS3" => keep(&mut t.scalar_masses, "CMASS3", elements::cmass(f, true, true), f),
+            b"CMASS4" => keep(&mut t.scalar_masses, "CMASS4", elements::cmass(f, false, true), f),
+            b"PMASS" => keep_all(&mut t.mass_properties, "PMASS", elements::pmass(f), f),
+            b"CELAS1" => keep(&mut t.springs, "CELAS1", elements::celas1(f), f),
+            b"CELAS2" => keep(&mut t.springs, "CELAS2", elements::celas2(f), f),
+            b"CBUSH" => keep(&mut t.bushes, "CBUSH", elements::cbush(f), f),
             b"PBAR" => {
                 let (id, property) = properties::pbar(f);
                 keep(
@@ -223,7 +188,6 @@ impl Builder {
                     "PBAR",
                     (id, BarProperty::Pbar(property)),
                     f,
-                    places,
                 );
             }
             b"PBARL" => match properties::shape(f, 4) {
@@ -234,7 +198,6 @@ impl Builder {
                         "PBARL",
                         (id, BarProperty::Pbarl(property)),
                         f,
-                        places,
                     );
                 }
                 None => unknown_section(card, f, file, deck),
@@ -246,7 +209,6 @@ impl Builder {
                     "PBEAM",
                     (id, BeamProperty::Pbeam(Box::new(property))),
                     f,
-                    places,
                 );
             }
             b"PBEAML" => match properties::shape(f, 4) {
@@ -257,18 +219,17 @@ impl Builder {
                         "PBEAML",
                         (id, BeamProperty::Pbeaml(property)),
                         f,
-                        places,
                     );
                 }
                 None => unknown_section(card, f, file, deck),
             },
-            b"PROD" => keep(&mut t.rod_properties, "PROD", properties::prod(f), f, places),
-            b"PELAS" => keep_all(&mut t.spring_properties, "PELAS", properties::pelas(f), f, places),
-            b"PBUSH" => keep(&mut t.bush_properties, "PBUSH", properties::pbush(f), f, places),
-            b"MAT1" => keep(&mut t.materials, "MAT1", properties::mat1(f), f, places),
-            b"RBE2" => keep(&mut t.rbe2, "RBE2", constraints::rbe2(f, known)?, f, places),
-            b"RBE3" => keep(&mut t.rbe3, "RBE3", constraints::rbe3(f, known)?, f, places),
-            b"RBAR" => keep(&mut t.rbars, "RBAR", constraints::rbar(f), f, places),
+            b"PROD" => keep(&mut t.rod_properties, "PROD", properties::prod(f), f),
+            b"PELAS" => keep_all(&mut t.spring_properties, "PELAS", properties::pelas(f), f),
+            b"PBUSH" => keep(&mut t.bush_properties, "PBUSH", properties::pbush(f), f),
+            b"MAT1" => keep(&mut t.materials, "MAT1", properties::mat1(f), f),
+            b"RBE2" => keep(&mut t.rbe2, "RBE2", constraints::rbe2(f, known)?, f),
+            b"RBE3" => keep(&mut t.rbe3, "RBE3", constraints::rbe3(f, known)?, f),
+            b"RBAR" => keep(&mut t.rbars, "RBAR", constraints::rbar(f), f),
             b"MPC" => extend(&mut deck.mpcs, [constraints::mpc(f)], f),
             b"SPC" => extend(&mut deck.spcs, constraints::spc(f), f),
             b"SPC1" => extend(&mut deck.spc1s, [constraints::spc1(f, known)?], f),
@@ -278,9 +239,9 @@ impl Builder {
             b"ASET1" => extend(&mut deck.asets, [constraints::dof_list(f, known)?], f),
             b"OMIT" => extend(&mut deck.omits, constraints::dof_pairs(f), f),
             b"OMIT1" => extend(&mut deck.omits, [constraints::dof_list(f, known)?], f),
-            b"SET1" => keep(&mut t.sets, "SET1", constraints::set1(f, known)?, f, places),
-            b"EIGR" => keep(&mut t.eigr, "EIGR", constraints::eigr(f), f, places),
-            b"EIGRL" => keep(&mut t.eigrl, "EIGRL", constraints::eigrl(f), f, places),
+            b"SET1" => keep(&mut t.sets, "SET1", constraints::set1(f, known)?, f),
+            b"EIGR" => keep(&mut t.eigr, "EIGR", constraints::eigr(f), f),
+            b"EIGRL" => keep(&mut t.eigrl, "EIGRL", constraints::eigrl(f), f),
             b"PARAM" => {
                 let param = constraints::param(f);
                 if !f.failed
@@ -304,83 +265,54 @@ impl Builder {
     /// The deck without control sections, and all remarks.
     pub(super) fn finish(mut self) -> (Deck, Vec<Diagnostic>) {
         self.read_deferred();
-        let origins = Origins::new(self.files.clone(), std::mem::take(&mut self.places));
         let mut deck = std::mem::take(&mut self.deck);
         let t = std::mem::take(&mut self.tables);
         let grdset = deck.grdset.clone().unwrap_or_default();
         let mut merge = Merge {
-            origins: &origins,
+            origins: Origins::new(self.files.clone()),
             remarks: &mut self.remarks,
         };
-        deck.grids = merge.map(
-            &["GRID"],
-            t.grids
-                .into_iter()
-                .map(|(id, (mut grid, blanks))| {
-                    blanks.apply(&grdset, &mut grid);
-                    (id, grid)
-                })
-                .collect(),
-        );
-        deck.coordinate_systems = merge.map(
-            &["CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S"],
-            t.coordinate_systems,
-        );
-        let defaults = &self.bar_defaults;
-        deck.bars = merge.map(
-            &["CBAR"],
-            t.bars
-                .into_iter()
-                .map(|(id, (mut bar, blanks))| {
-                    apply_defaults(
-                        defaults,
-                        blanks,
-                        &mut bar.pid,
-                        &mut bar.orientation,
-                        &mut bar.offset_frames,
-                    );
-                    (id, bar)
-                })
-                .collect(),
-        );
-        let defaults = &self.beam_defaults;
-        deck.beams = merge.map(
-            &["CBEAM"],
-            t.beams
-                .into_iter()
-                .map(|(id, (mut beam, blanks))| {
-                    apply_defaults(
-                        defaults,
-                        blanks,
-                        &mut beam.pid,
-                        &mut beam.orientation,
-                        &mut beam.offset_frames,
-                    );
-                    (id, beam)
-                })
-                .collect(),
-        );
-        deck.rods = merge.map(&["CROD"], t.rods);
-        deck.conrods = merge.map(&["CONROD"], t.conrods);
-        deck.conm1 = merge.map(&["CONM1"], t.conm1);
-        deck.conm2 = merge.map(&["CONM2"], t.conm2);
-        deck.scalar_masses = merge.map(&["CMASS1", "CMASS2", "CMASS3", "CMASS4"], t.scalar_masses);
-        deck.mass_properties = merge.map(&["PMASS"], t.mass_properties);
-        deck.springs = merge.map(&["CELAS1", "CELAS2"], t.springs);
-        deck.bushes = merge.map(&["CBUSH"], t.bushes);
-        deck.bar_properties = merge.map(&["PBAR", "PBARL"], t.bar_properties);
-        deck.beam_properties = merge.map(&["PBEAM", "PBEAML"], t.beam_properties);
-        deck.rod_properties = merge.map(&["PROD"], t.rod_properties);
-        deck.spring_properties = merge.map(&["PELAS"], t.spring_properties);
-        deck.bush_properties = merge.map(&["PBUSH"], t.bush_properties);
-        deck.materials = merge.map(&["MAT1"], t.materials);
-        deck.rbe2 = merge.map(&["RBE2"], t.rbe2);
-        deck.rbe3 = merge.map(&["RBE3"], t.rbe3);
-        deck.rbars = merge.map(&["RBAR"], t.rbars);
-        deck.sets = merge.map(&["SET1"], t.sets);
-        deck.eigr = merge.map(&["EIGR"], t.eigr);
-        deck.eigrl = merge.map(&["EIGRL"], t.eigrl);
-        deck.origins = origins;
+        deck.grids = merge.map_with(t.grids, |(mut grid, blanks)| {
+            blanks.apply(&grdset, &mut grid);
+            grid
+        });
+        deck.coordinate_systems = merge.map(t.coordinate_systems);
+        deck.bars = merge.map_with(t.bars, |(mut bar, blanks)| {
+            let defaults = &self.bar_defaults;
+            defaults.apply(blanks, &mut bar.pid, &mut bar.orientation, &mut bar.offset_frames);
+            bar
+        });
+        deck.beams = merge.map_with(t.beams, |(mut beam, blanks)| {
+            let defaults = &self.beam_defaults;
+            defaults.apply(
+                blanks,
+                &mut beam.pid,
+                &mut beam.orientation,
+                &mut beam.offset_frames,
+            );
+            beam
+        });
+        deck.rods = merge.map(t.rods);
+        deck.conrods = merge.map(t.conrods);
+        deck.conm1 = merge.map(t.conm1);
+        deck.conm2 = merge.map(t.conm2);
+        deck.scalar_masses = merge.map(t.scalar_masses);
+        deck.mass_properties = merge.map(t.mass_properties);
+        deck.springs = merge.map(t.springs);
+        deck.bushes = merge.map(t.bushes);
+        deck.bar_properties = merge.map(t.bar_properties);
+        deck.beam_properties = merge.map(t.beam_properties);
+        deck.rod_properties = merge.map(t.rod_properties);
+        deck.spring_properties = merge.map(t.spring_properties);
+        deck.bush_properties = merge.map(t.bush_properties);
+        deck.materials = merge.map(t.materials);
+        deck.rbe2 = merge.map(t.rbe2);
+        deck.rbe3 = merge.map(t.rbe3);
+        deck.rbars = merge.map(t.rbars);
+        deck.sets = merge.map(t.sets);
+        deck.eigr = merge.map(t.eigr);
+        deck.eigrl = merge.map(t.eigrl);
+        deck.origins = merge.origins;
         let name = self.files.first().cloned().unwrap_or_default();
         super::check::references(&deck, &name, &mut self.remarks);
         (deck, self.remarks.finish(&name))
@@ -392,7 +324,7 @@ impl Builder {
         if deferred.is_empty() {
             return;
         }
-        let mut known: Vec<Id> = self.tables.grids.iter().map(|(id, _)| *id).collect();
+        let mut known: Vec<Id> = self.tables.grids.iter().map(Row::id).collect();
         known.extend(&self.deck.scalar_points);
         known.sort_unstable();
         known.dedup();
@@ -411,31 +343,6 @@ impl Builder {
                 let _ = self.interpret(&card, Some(&known));
             }
         }
-    }
-}
-
-fn keep<T>(
-    rows: &mut Rows<T>,
-    name: &'static str,
-    (id, value): (Id, T),
-    f: &Fields<'_>,
-    places: &mut Vec<Place>,
-) {
-    if !f.failed {
-        places.push((name, id, f.card.file, f.card.line));
-        rows.push((id, value));
-    }
-}
-
-fn keep_all<T>(
-    rows: &mut Rows<T>,
-    name: &'static str,
-    values: Vec<(Id, T)>,
-    f: &Fields<'_>,
-    places: &mut Vec<Place>,
-) {
-    for value in values {
-        keep(rows, name, value, f, places);
     }
 }
 
@@ -465,70 +372,4 @@ fn unknown_section(card: &Card, f: &mut Fields<'_>, file: &str, deck: &mut Deck)
         format!("section {shape:?} is not known; the card is kept uninterpreted"),
     );
     deck.raw.push(raw(card, file));
-}
-
-fn apply_defaults(
-    defaults: &BarDefaults,
-    blanks: BarBlanks,
-    pid: &mut Id,
-    orientation: &mut Option<crate::deck::Orientation>,
-    offset_frames: &mut String,
-) {
-    if let Some(default) = defaults.pid.filter(|_| blanks.pid) {
-        *pid = default;
-    }
-    if orientation.is_none() {
-        orientation.clone_from(&defaults.orientation);
-    }
-    if let Some(frames) = defaults.offset_frames.as_ref().filter(|_| blanks.offset_frames) {
-        offset_frames.clone_from(frames);
-    }
-}
-
-/// Makes maps of lists and remarks on numbers that are given twice.
-struct Merge<'a> {
-    origins: &'a Origins,
-    remarks: &'a mut Remarks,
-}
-
-impl Merge<'_> {
-    /// The first card of a number counts. Solvers take identical copies and refuse others.
-    fn map<T: PartialEq>(&mut self, names: &[&'static str], mut rows: Rows<T>) -> BTreeMap<Id, T> {
-        rows.sort_by_key(|row| row.0);
-        rows.dedup_by(|later, first| {
-            let twice = later.0 == first.0;
-            if twice {
-                self.twice(names, first.0, later.1 == first.1);
-            }
-            twice
-        });
-        rows.into_iter().collect()
-    }
-
-    fn twice(&mut self, names: &[&'static str], id: Id, same: bool) {
-        let mut origins: Vec<(&str, Origin)> = Vec::new();
-        for name in names {
-            origins.extend(self.origins.all(name, id).map(|origin| (*name, origin)));
-        }
-        let places: Vec<String> = origins.iter().map(|(_, origin)| origin.to_string()).collect();
-        let Some((name, origin)) = origins.last() else {
-            return;
-        };
-        let (severity, how) = if same {
-            (Severity::Warning, "identical; one is kept")
-        } else {
-            (Severity::Error, "different; renumber or remove one")
-        };
-        self.remarks.push(
-            severity,
-            &origin.file,
-            origin.line,
-            format!("{name} {id}"),
-            format!(
-                "the number is given {} times, {how} ({})",
-                places.len(),
-                places.join(", ")
-            ),
-        );
-    }
 }

@@ -8,8 +8,8 @@
 pub(super) struct Card {
     name: Vec<u8>,
     text: Vec<u8>,
-    /// Ends of the fields in `text`; each begins where the one before ends.
-    ends: Vec<u32>,
+    /// Where the fields are in `text`.
+    fields: Vec<(u32, u32)>,
     /// Field 10 of the last line: columns 73 to 80, trimmed.
     label: Vec<u8>,
     pub(super) file: u32,
@@ -70,7 +70,7 @@ impl Card {
         let name = line.head.strip_suffix(b"*").unwrap_or(line.head).trim_ascii_end();
         self.name.extend(name.iter().map(u8::to_ascii_uppercase));
         self.text.clear();
-        self.ends.clear();
+        self.fields.clear();
         self.file = file;
         self.line = number;
         self.join(line);
@@ -81,7 +81,7 @@ impl Card {
         self.label.clear();
         // A small-field line begins a new line of eight fields.
         if !line.large {
-            while !self.ends.len().is_multiple_of(8) {
+            while !self.fields.len().is_multiple_of(8) {
                 self.push(b"");
             }
         }
@@ -95,10 +95,13 @@ impl Card {
     fn join_fixed(&mut self, line: &BulkLine<'_>) {
         let width = if line.large { 16 } else { 8 };
         let data = line.text.get(8..line.text.len().min(72)).unwrap_or_default();
-        let count = 64 / width;
-        let mut fields = data.chunks(width);
-        for _ in 0..count {
-            self.push(fields.next().unwrap_or_default().trim_ascii());
+        let start = self.text.len();
+        self.text.extend_from_slice(data);
+        for k in 0..64 / width {
+            let from = (k * width).min(data.len());
+            let upto = (from + width).min(data.len());
+            let (blanks, field) = trimmed(data.get(from..upto).unwrap_or_default());
+            self.fields.push(range(start + from + blanks, field.len()));
         }
         let label = line.text.get(72..line.text.len().min(80)).unwrap_or_default();
         self.label.extend_from_slice(label.trim_ascii());
@@ -108,7 +111,7 @@ impl Card {
     /// be written on one long line.
     fn join_free(&mut self, line: &BulkLine<'_>) {
         let count = if line.large { 4 } else { 8 };
-        let before = self.ends.len();
+        let before = self.fields.len();
         let mut fields = line
             .text
             .split(|&b| b == b',')
@@ -131,14 +134,14 @@ impl Card {
                 self.push(field);
             }
         }
-        while !(self.ends.len() - before).is_multiple_of(count) || self.ends.len() == before {
+        while !(self.fields.len() - before).is_multiple_of(count) || self.fields.len() == before {
             self.push(b"");
         }
     }
 
     pub(super) fn push(&mut self, field: &[u8]) {
+        self.fields.push(range(self.text.len(), field.len()));
         self.text.extend_from_slice(field);
-        self.ends.push(u32::try_from(self.text.len()).unwrap_or(u32::MAX));
     }
 
     /// Card name, upper case, without `*`.
@@ -166,19 +169,14 @@ impl Card {
 
     /// Number of fields up to the last line's end, blank ones included.
     pub(super) fn len(&self) -> usize {
-        self.ends.len()
+        self.fields.len()
     }
 
     /// Field `n` from 1, trimmed; empty if the card ends before.
     pub(super) fn field(&self, n: usize) -> &[u8] {
-        let Some(&end) = n.checked_sub(1).and_then(|i| self.ends.get(i)) else {
+        let Some(&(start, end)) = n.checked_sub(1).and_then(|i| self.fields.get(i)) else {
             return b"";
         };
-        let start = n
-            .checked_sub(2)
-            .and_then(|i| self.ends.get(i))
-            .copied()
-            .unwrap_or(0);
         self.text.get(start as usize..end as usize).unwrap_or_default()
     }
 
@@ -192,9 +190,23 @@ impl Card {
 
     pub(super) fn clear_fields(&mut self) {
         self.text.clear();
-        self.ends.clear();
+        self.fields.clear();
         self.label.clear();
     }
+}
+
+/// Blanks before the text, and the text without blanks around it.
+fn trimmed(field: &[u8]) -> (usize, &[u8]) {
+    let text = field.trim_ascii_start();
+    (field.len() - text.len(), text.trim_ascii_end())
+}
+
+fn range(start: usize, length: usize) -> (u32, u32) {
+    let start = u32::try_from(start).unwrap_or(u32::MAX);
+    (
+        start,
+        start.saturating_add(u32::try_from(length).unwrap_or(u32::MAX)),
+    )
 }
 
 #[cfg(test)]

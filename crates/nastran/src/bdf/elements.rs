@@ -1,5 +1,7 @@
 //! Elements: CBAR, CBEAM, CROD, CONROD, CONM1, CONM2, CMASSi, CELASi, CBUSH.
 
+use std::borrow::Cow;
+
 use crate::deck::{
     Cbar, Cbeam, Cbush, Celas, Cmass, Conm1, Conm2, Conm2Frame, Conrod, Crod, Id, Orientation, ScalarEnd,
     ScalarMassValue, ScalarSpringValue,
@@ -13,7 +15,28 @@ use super::fields::Fields;
 pub(super) struct BarDefaults {
     pub(super) pid: Option<Id>,
     pub(super) orientation: Option<Orientation>,
-    pub(super) offset_frames: Option<String>,
+    pub(super) offset_frames: Option<Cow<'static, str>>,
+}
+
+impl BarDefaults {
+    /// Fills what the card left blank.
+    pub(super) fn apply(
+        &self,
+        blanks: BarBlanks,
+        pid: &mut Id,
+        orientation: &mut Option<Orientation>,
+        offset_frames: &mut Cow<'static, str>,
+    ) {
+        if let Some(default) = self.pid.filter(|_| blanks.pid) {
+            *pid = default;
+        }
+        if orientation.is_none() {
+            orientation.clone_from(&self.orientation);
+        }
+        if let Some(frames) = self.offset_frames.as_ref().filter(|_| blanks.offset_frames) {
+            offset_frames.clone_from(frames);
+        }
+    }
 }
 
 /// Which fields of a bar were blank.
@@ -46,12 +69,12 @@ fn orientation(f: &mut Fields<'_>, n: usize) -> Option<Orientation> {
 }
 
 /// Orientation and OFFT of a CBAR. NASTRAN-95 has a flag in place of OFFT: 1 for a vector, 2 for a grid.
-fn bar_orientation(f: &mut Fields<'_>) -> (Option<Orientation>, Option<String>) {
+fn bar_orientation(f: &mut Fields<'_>) -> (Option<Orientation>, Option<Cow<'static, str>>) {
     match f.text(8) {
         b"1" => (Some(Orientation::Vector(f.vector(5, "X"))), None),
         b"2" => (Some(Orientation::Grid(f.id(5, "G0"))), None),
         b"" => (orientation(f, 5), None),
-        _ => (orientation(f, 5), Some(f.word(8))),
+        _ => (orientation(f, 5), Some(Cow::Owned(f.word(8)))),
     }
 }
 
@@ -67,7 +90,7 @@ pub(super) fn cbar(f: &mut Fields<'_>) -> (Id, (Cbar, BarBlanks)) {
         pid: f.optional_id(2, "PID").unwrap_or(id),
         grids: [f.id(3, "GA"), f.id(4, "GB")],
         orientation,
-        offset_frames: frames.unwrap_or_else(|| "GGG".into()),
+        offset_frames: frames.unwrap_or(Cow::Borrowed("GGG")),
         pins: [f.components(9, "PA"), f.components(10, "PB")],
         wa: f.vector(11, "WA"),
         wb: f.vector(14, "WB"),
@@ -83,7 +106,7 @@ pub(super) fn cbeam(f: &mut Fields<'_>) -> (Id, (Cbeam, BarBlanks)) {
     let frames = if f.is_blank(8) || bit.is_some() {
         None
     } else {
-        Some(f.word(8))
+        Some(Cow::Owned(f.word(8)))
     };
     let blanks = BarBlanks {
         pid: f.is_blank(2),
@@ -94,7 +117,7 @@ pub(super) fn cbeam(f: &mut Fields<'_>) -> (Id, (Cbeam, BarBlanks)) {
         pid: f.optional_id(2, "PID").unwrap_or(id),
         grids: [f.id(3, "GA"), f.id(4, "GB")],
         orientation: orientation(f, 5),
-        offset_frames: frames.unwrap_or_else(|| "GGG".into()),
+        offset_frames: frames.unwrap_or(Cow::Borrowed("GGG")),
         bit,
         pins: [f.components(9, "PA"), f.components(10, "PB")],
         wa: f.vector(11, "WA"),

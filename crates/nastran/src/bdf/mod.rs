@@ -14,6 +14,7 @@ mod elements;
 mod fields;
 mod include;
 mod lists;
+mod merge;
 mod points;
 mod properties;
 mod replicate;

@@ -72,7 +72,7 @@ impl<'r> DeckReader<'r> {
             }
             let number = lines.number();
             // Ctrl-Z ended text files on old systems.
-            let line = line.split(|&b| b == 0x1A).next().unwrap_or_default();
+            let line = line.strip_suffix(&[0x1A]).unwrap_or(line);
             if let Some((open, at)) = statement.take() {
                 match open.take(line, false) {
                     Progress::Open(open) => statement = Some((open, at)),
@@ -206,20 +206,20 @@ impl<'r> DeckReader<'r> {
     }
 
     fn bulk_line(&mut self, line: &[u8], file: u32, number: u32) {
-        let mut text = line;
-        let mut free = false;
-        let mut tab = false;
-        for (at, byte) in line.iter().enumerate() {
-            match byte {
-                b'$' => {
-                    text = line.get(..at).unwrap_or_default();
-                    break;
-                }
-                b',' => free = true,
-                b'\t' => tab = true,
-                _ => {}
-            }
-        }
+        // Most lines have none of these bytes, which one pass without branches finds out.
+        let special = line
+            .iter()
+            .fold(false, |any, &b| any | (b == b'$') | (b == b',') | (b == b'\t'));
+        let text = if special {
+            line.split(|&b| b == b'$').next().unwrap_or_default()
+        } else {
+            line
+        };
+        let (free, tab) = if special {
+            (text.contains(&b','), text.contains(&b'\t'))
+        } else {
+            (false, false)
+        };
         let text = text.trim_ascii_end();
         if text.is_empty() {
             return;

@@ -1,5 +1,7 @@
 //! Elements with stiffness or mass: bars, beams, rods, springs, bushes and concentrated masses.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Components, Id};
@@ -26,7 +28,7 @@ pub struct Cbar {
     /// reports an error.
     pub orientation: Option<Orientation>,
     /// OFFT: the frames of orientation and offsets, `GGG` when blank.
-    pub offset_frames: String,
+    pub offset_frames: Cow<'static, str>,
     /// Released components at ends A and B, in the element's frame (PA, PB).
     pub pins: [Components; 2],
     /// Offset from grid A to the bar's end A, in the CD system of A unless `offset_frames` says otherwise.
@@ -47,7 +49,7 @@ pub struct Cbeam {
     /// Orientation of plane 1, see [`Cbar::orientation`].
     pub orientation: Option<Orientation>,
     /// OFFT, `GGG` when blank.
-    pub offset_frames: String,
+    pub offset_frames: Cow<'static, str>,
     /// Built-in twist or parametric shape (BIT), which shares a field with OFFT.
     pub bit: Option<f64>,
     /// Released components at ends A and B.

@@ -1,5 +1,6 @@
 //! Where a card stood: file and line, kept beside the deck so that later stages can name it in their errors.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::Id;
@@ -24,8 +25,8 @@ impl std::fmt::Display for Origin {
 #[derive(Debug, Clone, Default)]
 pub struct Origins {
     files: Vec<Arc<str>>,
-    /// (card name, number, file index, line), sorted once reading ends.
-    places: Vec<(&'static str, Id, u32, u32)>,
+    /// For each card name: number, file index and line, sorted by number.
+    places: BTreeMap<&'static str, Vec<(Id, u32, u32)>>,
 }
 
 impl PartialEq for Origins {
@@ -35,20 +36,28 @@ impl PartialEq for Origins {
 }
 
 impl Origins {
-    pub(crate) fn new(files: Vec<Arc<str>>, mut places: Vec<(&'static str, Id, u32, u32)>) -> Self {
-        places.sort_unstable();
-        Self { files, places }
+    pub(crate) fn new(files: Vec<Arc<str>>) -> Self {
+        Self {
+            files,
+            places: BTreeMap::new(),
+        }
+    }
+
+    /// Adds places of one card name, which must come in ascending order of number over all calls.
+    pub(crate) fn extend(&mut self, name: &'static str, places: impl Iterator<Item = (Id, u32, u32)>) {
+        self.places.entry(name).or_default().extend(places);
     }
 
     /// All places of the card `name` with number `id`, in file order.
     pub fn all(&self, name: &str, id: Id) -> impl Iterator<Item = Origin> {
-        let from = self.places.partition_point(|p| (p.0, p.1) < (name, id));
-        let upto = self.places.partition_point(|p| (p.0, p.1) <= (name, id));
-        self.places
+        let places = self.places.get(name).map_or(&[][..], Vec::as_slice);
+        let from = places.partition_point(|p| p.0 < id);
+        let upto = places.partition_point(|p| p.0 <= id);
+        places
             .get(from..upto)
             .unwrap_or_default()
             .iter()
-            .filter_map(|&(_, _, file, line)| {
+            .filter_map(|&(_, file, line)| {
                 Some(Origin {
                     file: Arc::clone(self.files.get(usize::try_from(file).ok()?)?),
                     line,

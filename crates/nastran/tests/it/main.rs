@@ -7,6 +7,9 @@
     reason = "helpers of tests"
 )]
 
+mod damage;
 mod decks;
 mod f06_fixtures;
+mod f06_pages;
 mod round_trip;
+mod third_party;

@@ -248,15 +248,9 @@ fn line_elements(deck: Deck) -> impl Strategy<Value = Deck> {
 }
 
 fn mass_elements(deck: Deck) -> impl Strategy<Value = Deck> {
-    let conm1 = (id(), 0_u32..9, vec(real(), 21)).prop_map(|(grid, cid, lower)| {
-        let mut mass = [[0.0; 6]; 6];
-        let mut terms = lower.into_iter();
-        for i in 0..6 {
-            for j in 0..=i {
-                mass[i][j] = terms.next().unwrap();
-                mass[j][i] = mass[i][j];
-            }
-        }
+    let conm1 = (id(), 0_u32..9, vec(real(), 21)).prop_map(|(grid, cid, lower): (_, _, Vec<f64>)| {
+        let term = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+        let mass = std::array::from_fn(|i| std::array::from_fn(|j| term(i, j)));
         Conm1 {
             id: 0,
             grid,
