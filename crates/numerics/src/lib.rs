@@ -40,6 +40,7 @@ pub mod eigen;
 mod error;
 pub mod integrate;
 pub mod interp;
+mod kernel;
 pub mod matrix;
 pub mod root;
 pub mod solve;
