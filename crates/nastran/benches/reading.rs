@@ -3,7 +3,12 @@
 //! Results: the pages of one mode are repeated with other mode numbers. Decks: the bulk data is repeated with other
 //! numbers. So all values and layouts are those of real files.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark")]
+#![allow(
+    missing_docs,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a benchmark"
+)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;

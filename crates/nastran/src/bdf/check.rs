@@ -6,8 +6,37 @@ use crate::deck::{Conm2Frame, Deck, Id, Orientation, ScalarMassValue, ScalarSpri
 use crate::error::Severity;
 use crate::remarks::Remarks;
 
+/// Numbers in ascending order. References mostly go to neighbours of the one before, so these are tried first.
+struct Numbers {
+    sorted: Vec<Id>,
+    last: usize,
+}
+
+impl Numbers {
+    fn new(sorted: impl Iterator<Item = Id>) -> Self {
+        Self {
+            sorted: sorted.collect(),
+            last: 0,
+        }
+    }
+
+    fn contains(&mut self, id: Id) -> bool {
+        for near in self.last..self.last + 2 {
+            if self.sorted.get(near) == Some(&id) {
+                self.last = near;
+                return true;
+            }
+        }
+        let found = self.sorted.binary_search(&id);
+        self.last = found.unwrap_or(self.last);
+        found.is_ok()
+    }
+}
+
 struct Checker<'a> {
     deck: &'a Deck,
+    grids: Numbers,
+    bar_properties: Numbers,
     main_file: &'a str,
     /// Uninterpreted materials (as `MAT`) and properties, which count as present.
     others: BTreeSet<(&'a str, Id)>,
@@ -18,6 +47,8 @@ struct Checker<'a> {
 pub(super) fn references(deck: &Deck, main_file: &str, remarks: &mut Remarks) {
     let mut check = Checker {
         deck,
+        grids: Numbers::new(deck.grids.keys().copied()),
+        bar_properties: Numbers::new(deck.bar_properties.keys().copied()),
         main_file,
         others: uninterpreted(deck),
         remarks,
@@ -55,7 +86,7 @@ impl Checker<'_> {
     }
 
     fn grid(&mut self, card: &str, id: Id, field: &str, grid: Id) {
-        if !self.deck.grids.contains_key(&grid) {
+        if !self.grids.contains(grid) {
             self.missing(
                 card,
                 id,
@@ -68,7 +99,7 @@ impl Checker<'_> {
 
     /// A grid, a scalar point, or 0 for the ground.
     fn point(&mut self, card: &str, id: Id, field: &str, point: Id) {
-        if point != 0 && !self.deck.grids.contains_key(&point) && !self.deck.scalar_points.contains(&point) {
+        if point != 0 && !self.grids.contains(point) && !self.deck.scalar_points.contains(&point) {
             self.missing(
                 card,
                 id,
@@ -133,8 +164,7 @@ impl Checker<'_> {
             self.grid("CBAR", id, "GB", bar.grids[1]);
             self.orientation("CBAR", id, bar.orientation.as_ref());
             // Sections of other libraries stay uninterpreted.
-            let known =
-                deck.bar_properties.contains_key(&bar.pid) || self.others.contains(&("PBARL", bar.pid));
+            let known = self.bar_properties.contains(bar.pid) || self.others.contains(&("PBARL", bar.pid));
             self.present("CBAR", id, "property PBAR or PBARL", bar.pid, known);
         }
         for (&id, beam) in &deck.beams {

@@ -40,7 +40,7 @@ impl BarDefaults {
 }
 
 /// Which fields of a bar were blank.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BarBlanks {
     pub(super) pid: bool,
     pub(super) offset_frames: bool,

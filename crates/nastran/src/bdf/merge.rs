@@ -59,7 +59,7 @@ impl Merge<'_> {
 
     /// The map of the finished values. The first card of a number counts: solvers take identical copies, and refuse
     /// others.
-    pub(super) fn map_with<T, U: PartialEq>(
+    pub(super) fn map_with<T: PartialEq, U>(
         &mut self,
         mut rows: Rows<T>,
         finish: impl Fn(T) -> U,
@@ -71,18 +71,14 @@ impl Merge<'_> {
                     .extend(first.name, run.iter().map(|row| (row.id, row.file, row.line)));
             }
         }
-        let mut values: Vec<(Id, &'static str, U)> = rows
-            .into_iter()
-            .map(|row| (row.id, row.name, finish(row.value)))
-            .collect();
-        values.dedup_by(|later, first| {
-            let twice = later.0 == first.0;
+        rows.dedup_by(|later, first| {
+            let twice = later.id == first.id;
             if twice {
-                self.twice(first.0, first.1, later.1, later.2 == first.2);
+                self.twice(first.id, first.name, later.name, later.value == first.value);
             }
             twice
         });
-        values.into_iter().map(|(id, _, value)| (id, value)).collect()
+        rows.into_iter().map(|row| (row.id, finish(row.value))).collect()
     }
 
     #[cold]

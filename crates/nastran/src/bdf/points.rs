@@ -6,7 +6,7 @@ use crate::error::Severity;
 use super::fields::Fields;
 
 /// Which fields of a GRID were blank and take GRDSET's value.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GridBlanks {
     cp: bool,
     cd: bool,

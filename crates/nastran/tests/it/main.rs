@@ -2,7 +2,7 @@
 
 #![allow(
     clippy::unwrap_used,
-    clippy::expect_used,
+    clippy::print_stdout,
     clippy::panic,
     reason = "helpers of tests"
 )]
