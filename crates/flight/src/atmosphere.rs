@@ -1,6 +1,7 @@
 //! The International Standard Atmosphere (ISO 2533:1975; ICAO Doc 7488) up to 32 km of geopotential altitude.
 
 use num_dual::DualNum;
+use std::ops::RangeInclusive;
 
 /// Specific gas constant of air \[J/(kg K)\].
 pub const GAS_CONSTANT: f64 = 287.05287;
@@ -8,6 +9,9 @@ pub const GAS_CONSTANT: f64 = 287.05287;
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 /// Ratio of specific heats of air.
 pub const HEAT_RATIO: f64 = 1.4;
+
+/// Geopotential altitudes at which the model holds \[m\].
+pub const ALTITUDES: RangeInclusive<f64> = -2_000.0..=32_000.0;
 
 /// A layer of constant lapse rate: base altitude \[m\], temperature \[K\], pressure \[Pa\], lapse rate \[K/m\].
 struct Layer {
@@ -54,7 +58,7 @@ pub struct Air<T> {
 
 /// The standard atmosphere at geopotential altitude `altitude` \[m\].
 ///
-/// Valid from -2 km to 32 km; beyond, the outermost layers are continued. Differentiable within each layer: with dual
+/// Valid for [`ALTITUDES`]; beyond, the outermost layers are continued. Differentiable within each layer: with dual
 /// numbers the derivative with altitude is exact.
 pub fn standard<T: DualNum<Primitive = f64> + Copy>(altitude: T) -> Air<T> {
     let [troposphere, lower, middle] = &LAYERS;

@@ -50,17 +50,31 @@ pub fn from_avl(
     options: &AvlOptions,
 ) -> Result<(RigidAerodynamics, Vec<String>, ReferenceShape), Error> {
     let run = &file.run;
-    let refuse = |what: &str, cure: &str| Err(Error::Derivatives { what: what.into(), cure: cure.into() });
+    let refuse = |what: &str, cure: &str| {
+        Err(Error::Derivatives {
+            what: what.into(),
+            cure: cure.into(),
+        })
+    };
     if run.axes == AxisOrientation::Geometric {
         return refuse(
             "the AVL run uses geometric axes (X aft, Z up)",
             "switch to standard axes (OPER, then O, then R) and write the .st file again",
         );
     }
-    let reference =
-        ReferenceShape { area: run.reference.s_ref, chord: run.reference.c_ref, span: run.reference.b_ref };
-    if ![reference.area, reference.chord, reference.span].iter().all(|v| v.is_finite() && *v > 0.0) {
-        return refuse("Sref, Cref and Bref of the AVL run must be positive", "correct the header of the .avl file");
+    let reference = ReferenceShape {
+        area: run.reference.s_ref,
+        chord: run.reference.c_ref,
+        span: run.reference.b_ref,
+    };
+    if ![reference.area, reference.chord, reference.span]
+        .iter()
+        .all(|v| v.is_finite() && *v > 0.0)
+    {
+        return refuse(
+            "Sref, Cref and Bref of the AVL run must be positive",
+            "correct the header of the .avl file",
+        );
     }
     let state = RunPoint::of(file);
     let drag = match options.drag {
@@ -70,7 +84,10 @@ pub fn from_avl(
                 "write the .st file at the trimmed lift coefficient, or set the drag law to `linear`",
             );
         }
-        DragLaw::Polar => Drag::Polar { zero: run.c_drag_viscous, k: run.c_drag_induced / run.c_lift.powi(2) },
+        DragLaw::Polar => Drag::Polar {
+            zero: run.c_drag_viscous,
+            k: run.c_drag_induced / run.c_lift.powi(2),
+        },
         DragLaw::Linear => {
             if file.alpha.drag.is_none() {
                 return refuse(
@@ -151,7 +168,13 @@ fn move_moments(rigid: &mut RigidAerodynamics, x: f64, z: f64, reference: &Refer
         k.r_hat += k.beta * 2.0 * x / b;
         k.p_hat -= k.beta * 2.0 * z / b;
     };
-    for k in [&mut rigid.lift, &mut rigid.side, &mut rigid.roll, &mut rigid.pitch, &mut rigid.yaw] {
+    for k in [
+        &mut rigid.lift,
+        &mut rigid.side,
+        &mut rigid.roll,
+        &mut rigid.pitch,
+        &mut rigid.yaw,
+    ] {
         shift_rates(k);
     }
     let (lift, side) = (rigid.lift.clone(), rigid.side.clone());
@@ -224,7 +247,10 @@ mod tests {
     use albatross_avl::results::BodyDerivatives;
 
     fn fixture(name: &str) -> String {
-        let path = format!("{}/../../fixtures/f25-like/avl_out/{name}", env!("CARGO_MANIFEST_DIR"));
+        let path = format!(
+            "{}/../../fixtures/f25-like/avl_out/{name}",
+            env!("CARGO_MANIFEST_DIR")
+        );
         std::fs::read_to_string(path).unwrap()
     }
 
@@ -235,12 +261,19 @@ mod tests {
         let st = StabilityDerivatives::parse(&fixture("trim.st"), "trim.st").unwrap();
         let sb = BodyDerivatives::parse(&fixture("trim.sb"), "trim.sb").unwrap();
         let point = [20.34355, 0.0, -0.42768];
-        let options = AvlOptions { cg: point, moment_point: point, drag: DragLaw::Polar };
+        let options = AvlOptions {
+            cg: point,
+            moment_point: point,
+            drag: DragLaw::Polar,
+        };
         let (rigid, controls, reference) = from_avl(&st, &options).unwrap();
         assert_eq!(controls, ["aileron_in", "aileron_out", "elevator", "rudder"]);
         assert_eq!(reference.area, 130.1);
         let close = |found: f64, expected: f64, what: &str| {
-            assert!((found - expected).abs() < 3e-6, "{what}: {found} against {expected}");
+            assert!(
+                (found - expected).abs() < 3e-6,
+                "{what}: {found} against {expected}"
+            );
         };
         let (p, r, v) = (&sb.p, &sb.r, &sb.v);
         close(rigid.roll.p_hat, p.roll, "Clp");
@@ -263,15 +296,24 @@ mod tests {
     fn val_totals_are_recovered() {
         let st = StabilityDerivatives::parse(&fixture("trim.st"), "trim.st").unwrap();
         let point = [20.34355, 0.0, -0.42768];
-        let (rigid, ..) =
-            from_avl(&st, &AvlOptions { cg: point, moment_point: point, drag: DragLaw::Polar }).unwrap();
+        let (rigid, ..) = from_avl(
+            &st,
+            &AvlOptions {
+                cg: point,
+                moment_point: point,
+                drag: DragLaw::Polar,
+            },
+        )
+        .unwrap();
         let alpha = 1.33236_f64.to_radians();
         let elevator = (-0.01128_f64).to_radians();
         let variables = [alpha, 0.0, 0.0, 0.0, 0.0];
         let controls = [0.0, 0.0, elevator, 0.0];
         assert!((rigid.lift.at(&variables, &controls) - 0.56440).abs() < 1e-12);
         assert!(rigid.pitch.at(&variables, &controls).abs() < 1e-12);
-        let Drag::Polar { zero, k } = rigid.drag else { panic!("polar expected") };
+        let Drag::Polar { zero, k } = rigid.drag else {
+            panic!("polar expected")
+        };
         assert!((zero + k * 0.5644_f64.powi(2) - (0.0209 + 0.0078233)).abs() < 1e-12);
     }
 
@@ -279,7 +321,10 @@ mod tests {
     /// `Cmq = -2 CLa (x/c)^2` (Etkin & Reid 1996, section 5.4 for a point surface).
     #[test]
     fn val_moving_the_moment_point() {
-        let lift = Coefficient { alpha: 5.0, ..Coefficient::default() };
+        let lift = Coefficient {
+            alpha: 5.0,
+            ..Coefficient::default()
+        };
         let mut rigid = RigidAerodynamics {
             lift,
             drag: Drag::Polar { zero: 0.0, k: 0.0 },
@@ -288,7 +333,16 @@ mod tests {
             pitch: Coefficient::default(),
             yaw: Coefficient::default(),
         };
-        move_moments(&mut rigid, 0.3, 0.0, &ReferenceShape { area: 1.0, chord: 2.0, span: 9.0 });
+        move_moments(
+            &mut rigid,
+            0.3,
+            0.0,
+            &ReferenceShape {
+                area: 1.0,
+                chord: 2.0,
+                span: 9.0,
+            },
+        );
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-14, "{a} {b}");
         close(rigid.pitch.alpha, 5.0 * 0.15);
         close(rigid.lift.q_hat, -2.0 * 5.0 * 0.15);

@@ -15,7 +15,9 @@ pub enum Error {
         expected: &'static str,
     },
     /// Arrays that do not fit.
-    #[error("{what}: {found}, expected {expected}")]
+    #[error(
+        "{what}: the size is {found}, expected {expected}; arrays must fit the modes, strips, controls and states"
+    )]
     Sizes {
         /// Which array, and what it counts.
         what: &'static str,
@@ -23,6 +25,12 @@ pub enum Error {
         expected: usize,
         /// Size found.
         found: usize,
+    },
+    /// Two controls or sensors of one name, or one named like the thrust input.
+    #[error("two of the controls, sensors and the input `thrust` are named `{name}`; rename one of them")]
+    DuplicateName {
+        /// The name.
+        name: String,
     },
     /// No control of that name.
     #[error("no control is named `{name}`; there are: {known}")]
@@ -68,9 +76,20 @@ pub enum Error {
         /// The control that trims pitch.
         control: String,
     },
+    /// An unknown of the trim has no effect on the equation that it must satisfy.
+    #[error("the trim cannot be solved: {unknown} does not change {equation}; {cure}")]
+    NoTrimAuthority {
+        /// The unknown: a control's name, or the thrust.
+        unknown: String,
+        /// The equation.
+        equation: &'static str,
+        /// How to mend it.
+        cure: &'static str,
+    },
     /// The simulation left the finite numbers.
     #[error(
-        "the simulation became non-finite at t = {time:.6} s in state `{state}`; reduce the step of {dt} s or the input, or look for an instability in the mode table"
+        "the simulation became non-finite at t = {time:.6} s in state `{state}`; reduce the step of {dt} s or the \
+         input, or look for an instability in the mode table"
     )]
     Diverged {
         /// Time \[s\].

@@ -71,6 +71,11 @@ impl Layout {
         start..start + self.n_modes
     }
 
+    /// Modal amplitudes and rates together.
+    pub(crate) fn motion(&self) -> Range<usize> {
+        self.n_rigid()..self.n_rigid() + 2 * self.n_modes
+    }
+
     /// Lag states, lag by lag, strips within.
     pub fn lags(&self) -> Range<usize> {
         let start = self.n_rigid() + 2 * self.n_modes;
@@ -127,8 +132,10 @@ impl Layout {
         match self.attitude {
             Attitude::Euler => (x[6], x[7]),
             Attitude::Quaternion => {
-                let down = self.down_in_body(x);
-                (down[1].atan2(down[2]), -down[0].asin())
+                let [forward, right, down] = self.down_in_body(x);
+                // Not the arc sine: rounding may carry the component beyond one.
+                let level = (right * right + down * down).sqrt();
+                (right.atan2(down), -forward.atan2(level))
             }
         }
     }

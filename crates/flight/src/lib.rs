@@ -63,6 +63,7 @@ pub mod aerodynamics;
 pub mod aircraft;
 pub mod atmosphere;
 pub mod derivatives;
+pub mod lag_form;
 pub mod layout;
 pub mod linearize;
 pub mod scalar;
@@ -71,6 +72,9 @@ pub mod signal;
 pub mod simulate;
 pub mod trim;
 
+mod check;
+mod columns;
+mod elastic;
 mod equations;
 mod error;
 mod outputs;
@@ -78,9 +82,13 @@ mod outputs;
 pub use aircraft::{
     Aircraft, Attitude, ControlAerodynamics, ElasticPart, Engine, Fidelity, ModelOptions, ShapeReference,
 };
-pub use equations::{EquationsOfMotion, Workspace};
+pub use elastic::Workspace;
+pub use equations::EquationsOfMotion;
 pub use error::Error;
 pub use linearize::linearize;
 pub use sensor::{Quantity, Sensor, SensorPoint};
 pub use simulate::{Manoeuvre, Method, TimeHistory, simulate};
 pub use trim::{FlightPoint, Trim, trim};
+
+/// Name of the thrust input, the last one.
+pub const THRUST: &str = "thrust";

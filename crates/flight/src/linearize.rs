@@ -1,7 +1,7 @@
 //! Linearisation about a state: exact Jacobians by dual numbers, one state or input at a time.
 
 use crate::Error;
-use crate::equations::EquationsOfMotion;
+use crate::equations::{EquationsOfMotion, ensure_size};
 use albatross_lti::{Signal, StateSpace};
 use albatross_numerics::Mat;
 use num_dual::Dual64;
@@ -10,22 +10,16 @@ use num_dual::Dual64;
 /// states, inputs and outputs.
 ///
 /// # Errors
-/// [`Error::Sizes`] if `x` or `u` have the wrong length.
+/// [`Error::Sizes`] if `x` or `u` have the wrong length; [`Error::Lti`] if a derivative is not finite, as at a speed of
+/// zero or at a pitch angle of 90 deg with Euler angles.
 pub fn linearize(equations: &EquationsOfMotion, x: &[f64], u: &[f64]) -> Result<StateSpace, Error> {
     let (n, m, p) = (
         equations.layout().n_states(),
         equations.n_inputs(),
         equations.aircraft().sensors.len(),
     );
-    for (what, found, expected) in [("states", x.len(), n), ("inputs", u.len(), m)] {
-        if found != expected {
-            return Err(Error::Sizes {
-                what,
-                expected,
-                found,
-            });
-        }
-    }
+    ensure_size("states in x", x.len(), n)?;
+    ensure_size("inputs in u", u.len(), m)?;
     let mut state: Vec<Dual64> = x.iter().map(|&v| Dual64::from(v)).collect();
     let mut input: Vec<Dual64> = u.iter().map(|&v| Dual64::from(v)).collect();
     let mut rate = vec![Dual64::from(0.0); n];
@@ -39,8 +33,8 @@ pub fn linearize(equations: &EquationsOfMotion, x: &[f64], u: &[f64]) -> Result<
             &mut input[column - n]
         };
         seed.eps = 1.0;
-        equations.derivative(&state, &input, &mut work, &mut rate);
-        equations.outputs(&state, &rate, &mut output);
+        equations.rates(&state, &input, &mut work, &mut rate);
+        equations.measure(&state, &rate, &mut output);
         for (row, value) in rate.iter().chain(&output).enumerate() {
             jacobian[(row, column)] = value.eps;
         }
@@ -60,7 +54,7 @@ pub fn linearize(equations: &EquationsOfMotion, x: &[f64], u: &[f64]) -> Result<
         .iter()
         .map(|c| Signal::new(c, "rad"))
         .collect();
-    inputs.push(Signal::new("thrust", "N"));
+    inputs.push(Signal::new(crate::THRUST, "N"));
     let outputs = equations
         .aircraft()
         .sensors

@@ -4,13 +4,26 @@
 //! `a_P = Vdot + omega x V + omegadot x r + omega x (omega x r)`, `a_z = [a_P]_z - phi_P etadd` (positive down).
 //! The Coriolis term of the elastic motion is neglected, as the mean-axes equations do.
 
-use crate::equations::{EquationsOfMotion, cross};
+use crate::Error;
+use crate::equations::{EquationsOfMotion, cross, ensure_size};
 use crate::scalar::Scalar;
 use crate::sensor::{Quantity, Sensor, SensorPoint};
 
 impl EquationsOfMotion {
     /// Sensor values; `xdot` is the derivative at `x`.
-    pub fn outputs<T: Scalar>(&self, x: &[T], xdot: &[T], y: &mut [T]) {
+    ///
+    /// # Errors
+    /// [`Error::Sizes`] if an array has the wrong length.
+    pub fn outputs<T: Scalar>(&self, x: &[T], xdot: &[T], y: &mut [T]) -> Result<(), Error> {
+        ensure_size("states in x", x.len(), self.layout.n_states())?;
+        ensure_size("states in xdot", xdot.len(), self.layout.n_states())?;
+        ensure_size("outputs in y", y.len(), self.aircraft.sensors.len())?;
+        self.measure(x, xdot, y);
+        Ok(())
+    }
+
+    /// [`EquationsOfMotion::outputs`] for arrays whose sizes are known to fit.
+    pub(crate) fn measure<T: Scalar>(&self, x: &[T], xdot: &[T], y: &mut [T]) {
         for (sensor, y) in self.aircraft.sensors.iter().zip(y) {
             *y = self.output(sensor, x, xdot);
         }

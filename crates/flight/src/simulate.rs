@@ -1,7 +1,8 @@
 //! Time histories: fixed steps, no allocation in the loop.
 
 use crate::Error;
-use crate::equations::{EquationsOfMotion, Workspace};
+use crate::elastic::Workspace;
+use crate::equations::{EquationsOfMotion, ensure_size};
 use crate::signal::{Side, Signal};
 use crate::trim::Trim;
 use albatross_lti::Signal as Channel;
@@ -57,6 +58,9 @@ impl TimeHistory {
     }
 }
 
+/// Most samples of a history, all channels together: 0.8 GB.
+const MOST_SAMPLES: f64 = 1e8;
+
 impl Manoeuvre {
     fn check(&self, equations: &EquationsOfMotion) -> Result<usize, Error> {
         for (quantity, value) in [("dt", self.dt), ("end", self.end)] {
@@ -81,6 +85,15 @@ impl Manoeuvre {
                 quantity: "output_every",
                 value: 0.0,
                 expected: "one or more steps",
+            });
+        }
+        let channels = equations.n_inputs() + equations.aircraft().sensors.len() + 1;
+        let samples = (steps / self.output_every as f64 + 1.0) * channels as f64;
+        if samples > MOST_SAMPLES {
+            return Err(Error::BadSignal {
+                quantity: "number of output samples",
+                value: samples,
+                expected: "at most 1e8 in all channels: raise output_every",
             });
         }
         for (index, signal) in &self.inputs {
@@ -128,14 +141,20 @@ impl Inputs<'_> {
 /// Non-linear simulation from trim.
 ///
 /// # Errors
-/// [`Error::BadSignal`] for an unusable step or input, [`Error::Diverged`] with the time and the state that ceased to
-/// be finite.
+/// [`Error::BadSignal`] for an unusable step or input, [`Error::Sizes`] for a trim of another model,
+/// [`Error::Diverged`] with the time and the state that ceased to be finite.
 pub fn simulate(
     equations: &EquationsOfMotion,
     trim: &Trim,
     manoeuvre: &Manoeuvre,
 ) -> Result<TimeHistory, Error> {
     let steps = manoeuvre.check(equations)?;
+    ensure_size(
+        "states of the trim",
+        trim.state.len(),
+        equations.layout().n_states(),
+    )?;
+    ensure_size("inputs of the trim", trim.input.len(), equations.n_inputs())?;
     let inputs = Inputs {
         trim: &trim.input,
         deviations: &manoeuvre.inputs,
@@ -143,28 +162,28 @@ pub fn simulate(
     let mut run = Run::new(equations, trim, steps / manoeuvre.output_every + 1);
     let mut x = trim.state.clone();
     let mut stepper = Stepper::new(equations, trim, manoeuvre)?;
-    run.record(0.0, &inputs, &x);
     for step in 0..steps {
         let t = step as f64 * manoeuvre.dt;
+        let sample = step % manoeuvre.output_every == 0;
+        if sample {
+            run.ensure_finite(t, manoeuvre.dt, &x)?;
+        }
         stepper.step(t, manoeuvre.dt, &mut x, |t, stage, x, xdot| {
             inputs.at_stage(t, stage, &mut run.input);
-            equations.derivative(x, &run.input, &mut run.work, xdot);
-        });
-        if (step + 1) % manoeuvre.output_every == 0 {
-            if let Some(bad) = x.iter().position(|v| !v.is_finite()) {
-                let state = equations
-                    .layout()
-                    .signals()
-                    .get(bad)
-                    .map_or_else(String::new, |s| s.name.clone());
-                return Err(Error::Diverged {
-                    time: t + manoeuvre.dt,
-                    state,
-                    dt: manoeuvre.dt,
-                });
+            equations.rates(x, &run.input, &mut run.work, xdot);
+            // The first stage is the sample's own evaluation: same state, right limits of the inputs.
+            if sample && stage == Stage::Start {
+                run.record(t, x, xdot);
             }
-            run.record((step + 1) as f64 * manoeuvre.dt, &inputs, &x);
-        }
+        });
+    }
+    let end = steps as f64 * manoeuvre.dt;
+    run.ensure_finite(end, manoeuvre.dt, &x)?;
+    if steps % manoeuvre.output_every == 0 {
+        let mut xdot = vec![0.0; x.len()];
+        inputs.at(end, Side::Right, &mut run.input);
+        equations.rates(&x, &run.input, &mut run.work, &mut xdot);
+        run.record(end, &x, &xdot);
     }
     Ok(run.finish(x, 4 * steps))
 }
@@ -208,7 +227,6 @@ struct Run<'a> {
     equations: &'a EquationsOfMotion,
     work: Workspace<f64>,
     input: Vec<f64>,
-    xdot: Vec<f64>,
     output: Vec<f64>,
     time: Vec<f64>,
     series: Vec<Vec<f64>>,
@@ -221,18 +239,24 @@ impl<'a> Run<'a> {
             equations,
             work: equations.workspace(),
             input: trim.input.clone(),
-            xdot: vec![0.0; equations.layout().n_states()],
             output: vec![0.0; n_outputs],
             time: Vec::with_capacity(samples),
             series: vec![Vec::with_capacity(samples); trim.input.len() + n_outputs],
         }
     }
 
-    fn record(&mut self, t: f64, inputs: &Inputs<'_>, x: &[f64]) {
-        inputs.at(t, Side::Right, &mut self.input);
-        self.equations
-            .derivative(x, &self.input, &mut self.work, &mut self.xdot);
-        self.equations.outputs(x, &self.xdot, &mut self.output);
+    fn ensure_finite(&self, time: f64, dt: f64, x: &[f64]) -> Result<(), Error> {
+        let Some(bad) = x.iter().position(|v| !v.is_finite()) else {
+            return Ok(());
+        };
+        let signals = self.equations.layout().signals();
+        let state = signals.get(bad).map_or_else(String::new, |s| s.name.clone());
+        Err(Error::Diverged { time, state, dt })
+    }
+
+    /// Samples the inputs as they stand and the outputs.
+    fn record(&mut self, t: f64, x: &[f64], xdot: &[f64]) {
+        self.equations.measure(x, xdot, &mut self.output);
         self.time.push(t);
         for (series, value) in self.series.iter_mut().zip(self.input.iter().chain(&self.output)) {
             series.push(*value);
@@ -242,7 +266,7 @@ impl<'a> Run<'a> {
     fn finish(self, final_state: Vec<f64>, evaluations: usize) -> TimeHistory {
         let aircraft = self.equations.aircraft();
         let mut channels: Vec<Channel> = aircraft.controls.iter().map(|c| Channel::new(c, "rad")).collect();
-        channels.push(Channel::new("thrust", "N"));
+        channels.push(Channel::new(crate::THRUST, "N"));
         channels.extend(
             aircraft
                 .sensors

@@ -4,11 +4,12 @@
 //! `(K - rho V^2 Q_eta) eta = q S cbar (Q_0 + Q_alpha alpha + Q_u u) + T phi_T`, so that Newton's method works on
 //! three accelerations: along body x, along body z, in pitch.
 
-use crate::aircraft::{Aircraft, ModelOptions, ShapeReference};
+use crate::aircraft::{Aircraft, Fidelity, ModelOptions, ShapeReference};
 use crate::equations::EquationsOfMotion;
 use crate::{Error, atmosphere};
 use albatross_numerics::{Mat, solve};
 use albatross_strip::flutter;
+use std::f64::consts::FRAC_PI_2;
 
 /// Where to trim.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -62,7 +63,8 @@ impl Trim {
 ///
 /// # Errors
 /// [`Error::Divergence`] if the static aeroelastic stiffness is singular or negative at the flight point,
-/// [`Error::TrimNotConverged`], [`Error::UnknownControl`], [`Error::BadQuantity`].
+/// [`Error::NoTrimAuthority`] if an unknown has no effect, [`Error::TrimNotConverged`], [`Error::UnknownControl`],
+/// [`Error::BadQuantity`], and what [`EquationsOfMotion::new`] returns.
 pub fn trim(
     aircraft: &Aircraft,
     options: ModelOptions,
@@ -70,22 +72,7 @@ pub fn trim(
 ) -> Result<(EquationsOfMotion, Trim), Error> {
     let mut equations = EquationsOfMotion::new(aircraft, options)?;
     let control = aircraft.control_index(&point.control)?;
-    for (quantity, value) in [("speed", point.speed), ("density", density(point))] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(Error::BadQuantity {
-                quantity,
-                value,
-                expected: "a positive number",
-            });
-        }
-    }
-    if !point.path_angle_rad.is_finite() {
-        return Err(Error::BadQuantity {
-            quantity: "flight-path angle",
-            value: point.path_angle_rad,
-            expected: "a finite angle",
-        });
-    }
+    point.check()?;
     check_divergence(&equations, point)?;
     let statics = StaticShape::new(&equations, point)?;
     let found = newton(&mut equations, point, control, &statics)?;
@@ -94,7 +81,7 @@ pub fn trim(
     let mut residuals = vec![0.0; state.len()];
     let mut work = equations.workspace::<f64>();
     let input = found.input(control, aircraft.controls.len());
-    equations.derivative(&state, &input, &mut work, &mut residuals);
+    equations.rates(&state, &input, &mut work, &mut residuals);
     // Altitude and position move along the flight path by intent.
     let moving = equations.layout().altitude()..equations.layout().n_rigid();
     let residual = residuals
@@ -107,7 +94,7 @@ pub fn trim(
         controls_rad: input[..aircraft.controls.len()].to_vec(),
         thrust: found.thrust,
         eta: state[equations.layout().eta()].to_vec(),
-        dynamic_pressure: 0.5 * density(point) * point.speed * point.speed,
+        dynamic_pressure: dynamic_pressure(point),
         density: density(point),
         state,
         input,
@@ -117,8 +104,42 @@ pub fn trim(
     Ok((equations, trim))
 }
 
+impl FlightPoint {
+    fn check(&self) -> Result<(), Error> {
+        let refuse = |quantity, value, expected| {
+            Err(Error::BadQuantity {
+                quantity,
+                value,
+                expected,
+            })
+        };
+        if !(self.speed.is_finite() && self.speed > 0.0) {
+            return refuse("speed", self.speed, "a positive number");
+        }
+        if !atmosphere::ALTITUDES.contains(&self.altitude) {
+            return refuse(
+                "altitude",
+                self.altitude,
+                "from -2000 to 32000 m, where the model of the atmosphere holds",
+            );
+        }
+        if self.path_angle_rad.is_nan() || self.path_angle_rad.abs() >= FRAC_PI_2 {
+            return refuse(
+                "flight-path angle",
+                self.path_angle_rad,
+                "an angle within -90 and 90 deg, in rad",
+            );
+        }
+        Ok(())
+    }
+}
+
 fn density(point: &FlightPoint) -> f64 {
     atmosphere::standard(point.altitude).density
+}
+
+fn dynamic_pressure(point: &FlightPoint) -> f64 {
+    0.5 * density(point) * point.speed * point.speed
 }
 
 fn check_divergence(equations: &EquationsOfMotion, point: &FlightPoint) -> Result<(), Error> {
@@ -170,7 +191,6 @@ impl Unknowns {
 /// Static elastic equilibrium: linear in the loads, so the inverse is made once.
 struct StaticShape {
     flexibility: Option<Mat<f64>>,
-    density: f64,
 }
 
 impl StaticShape {
@@ -190,7 +210,7 @@ impl StaticShape {
                     speed: point.speed,
                 };
                 let stiffness = match equations.options().fidelity {
-                    crate::aircraft::Fidelity::QuasiSteady => {
+                    Fidelity::QuasiSteady => {
                         &part.model.structure.stiffness
                             - density * point.speed * point.speed * &part.model.forces.eta_eta_c
                     }
@@ -199,13 +219,13 @@ impl StaticShape {
                 Some(solve::inverse(stiffness.as_ref())?)
             }
         };
-        Ok(Self { flexibility, density })
+        Ok(Self { flexibility })
     }
 
     fn load(&self, equations: &EquationsOfMotion, point: &FlightPoint, z: &Unknowns) -> Vec<f64> {
         let controls = z.controls(equations.aircraft().controls.len());
         let variables = [z.alpha, 0.0, 0.0, 0.0, 0.0];
-        equations.modal_load(self.density, point.speed, variables, &controls, z.thrust)
+        equations.modal_load(dynamic_pressure(point), variables, &controls, z.thrust)
     }
 
     /// Where the flight shape is the reference, it carries the whole steady load.
@@ -239,29 +259,36 @@ impl StaticShape {
     }
 }
 
+/// Equations of the trim, in the order of the residuals.
+const EQUATIONS: [&str; 3] = [
+    "the force along body x",
+    "the force along body z",
+    "the pitching moment",
+];
+const MOST_ITERATIONS: usize = 50;
+/// Residuals beside the accelerations that the air can give: far above rounding, far below any use.
+const TOLERANCE: f64 = 1e-10;
+/// Step of the differences: angles in rad, the thrust in weights.
+const STEP: f64 = 1e-6;
+/// A derivative of a scaled residual below this is rounding.
+const NO_EFFECT: f64 = 1e-8;
+
 fn newton(
     equations: &mut EquationsOfMotion,
     point: &FlightPoint,
     control: usize,
     statics: &StaticShape,
 ) -> Result<Unknowns, Error> {
-    const MOST_ITERATIONS: usize = 50;
-    const NAMES: [&str; 3] = [
-        "the force along body x",
-        "the force along body z",
-        "the pitching moment",
-    ];
+    let scales = residual_scales(equations, point);
     let n_controls = equations.aircraft().controls.len();
     let weight = equations.aircraft().mass * equations.aircraft().gravity;
-    let chord = equations.aircraft().reference.chord;
     let mut work = equations.workspace::<f64>();
     let mut xdot = vec![0.0; equations.layout().n_states()];
-    // Pitch acceleration on the reference chord: all three residuals are accelerations in m/s2.
     let mut residual = |z: &Unknowns| -> [f64; 3] {
         statics.hold_reference_shape(equations, point, z);
         let x = statics.state(equations, point, z);
-        equations.derivative(&x, &z.input(control, n_controls), &mut work, &mut xdot);
-        [xdot[0], xdot[2], chord * xdot[4]]
+        equations.rates(&x, &z.input(control, n_controls), &mut work, &mut xdot);
+        [xdot[0] / scales[0], xdot[2] / scales[1], xdot[4] / scales[2]]
     };
     let mut z = Unknowns {
         alpha: 0.02,
@@ -270,41 +297,28 @@ fn newton(
         iterations: 0,
         index: control,
     };
-    let steps = [1e-6, 1e-6, 1e-6 * weight];
+    let steps = [STEP, STEP, STEP * weight];
     let mut previous = f64::INFINITY;
     let mut last = [f64::INFINITY; 3];
+    let mut made = 0;
     for iteration in 1..=MOST_ITERATIONS {
-        let r = residual(&z);
-        let size = r.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        last = r;
-        // Rounding of accelerations that balance gravity; stop when Newton no longer improves.
-        if size < 1e-9 && size >= 0.5 * previous || size == 0.0 {
+        last = residual(&z);
+        made = iteration;
+        let size = last.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        // Newton goes on until rounding stops it.
+        if size == 0.0 || (size < TOLERANCE && size >= 0.5 * previous) {
             return Ok(Unknowns {
                 iterations: iteration,
                 ..z
             });
         }
-        if !size.is_finite() {
-            break;
-        }
         previous = size;
-        let mut jacobian = Mat::zeros(3, 3);
-        for (column, step) in steps.iter().enumerate() {
-            let shifted = |sign: f64| {
-                let mut s = z;
-                match column {
-                    0 => s.alpha += sign * step,
-                    1 => s.control += sign * step,
-                    _ => s.thrust += sign * step,
-                }
-                s
-            };
-            let (above, below) = (residual(&shifted(1.0)), residual(&shifted(-1.0)));
-            for row in 0..3 {
-                jacobian[(row, column)] = (above[row] - below[row]) / 2.0;
-            }
+        let jacobian = jacobian(&mut residual, &z, &steps);
+        if iteration == 1 {
+            check_authority(&jacobian, &point.control)?;
         }
-        let Ok(delta) = solve::solve_vec(jacobian.as_ref(), &r) else {
+        // A singular or non-finite Jacobian leaves the last residual to be reported.
+        let Ok(delta) = solve::solve_vec(jacobian.as_ref(), &last) else {
             break;
         };
         z.alpha = (z.alpha - delta[0] * steps[0]).clamp(-1.0, 1.0);
@@ -313,9 +327,71 @@ fn newton(
     }
     let worst = (0..3).fold(0, |w, i| if last[i].abs() > last[w].abs() { i } else { w });
     Err(Error::TrimNotConverged {
-        iterations: MOST_ITERATIONS,
-        residual: last[worst],
-        worst_equation: NAMES[worst],
+        iterations: made,
+        residual: last[worst] * scales[worst],
+        worst_equation: EQUATIONS[worst],
         control: point.control.clone(),
     })
+}
+
+/// Accelerations that weight and unit coefficients give: x, z \[m/s²\], pitch \[rad/s²\].
+fn residual_scales(equations: &EquationsOfMotion, point: &FlightPoint) -> [f64; 3] {
+    let aircraft = equations.aircraft();
+    let force = dynamic_pressure(point) * aircraft.reference.area;
+    let linear = aircraft.gravity + force / aircraft.mass;
+    [
+        linear,
+        linear,
+        force * aircraft.reference.chord / aircraft.inertia[1][1],
+    ]
+}
+
+/// Central differences for one step of each unknown.
+fn jacobian(residual: &mut impl FnMut(&Unknowns) -> [f64; 3], z: &Unknowns, steps: &[f64; 3]) -> Mat<f64> {
+    let mut jacobian = Mat::zeros(3, 3);
+    for (column, step) in steps.iter().enumerate() {
+        let mut shifted = |sign: f64| {
+            let mut s = *z;
+            match column {
+                0 => s.alpha += sign * step,
+                1 => s.control += sign * step,
+                _ => s.thrust += sign * step,
+            }
+            residual(&s)
+        };
+        let (above, below) = (shifted(1.0), shifted(-1.0));
+        for row in 0..3 {
+            jacobian[(row, column)] = 0.5 * (above[row] - below[row]);
+        }
+    }
+    jacobian
+}
+
+/// Incidence must change the lift, the control the pitching moment, the thrust the force forwards.
+fn check_authority(jacobian: &Mat<f64>, control: &str) -> Result<(), Error> {
+    for (column, row, unknown, cure) in [
+        (0, 1, "the incidence", "check the lift slope CLa"),
+        (
+            1,
+            2,
+            control,
+            "choose a trim control with a pitching-moment derivative",
+        ),
+        (
+            2,
+            0,
+            "the thrust",
+            "give the aircraft an engine whose share is not zero and that points forward",
+        ),
+    ] {
+        let effect = jacobian[(row, column)] / STEP;
+        if effect.abs() < NO_EFFECT {
+            return Err(Error::NoTrimAuthority {
+                unknown: unknown.to_owned(),
+                equation: EQUATIONS[row],
+                cure,
+            });
+        }
+    }
+    Ok(())
 }
