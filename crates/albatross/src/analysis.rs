@@ -4,6 +4,7 @@ use crate::case::{ManoeuvreCase, SignalCase};
 use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::{Error, case};
+use albatross_flight::lag_form::diagonal_lag_form;
 use albatross_flight::signal::Signal;
 use albatross_flight::{
     EquationsOfMotion, Fidelity, Manoeuvre, ModelOptions, TimeHistory, Trim, linearize, simulate, trim,
@@ -192,7 +193,8 @@ pub fn mode_table_without_lags(model: &Model, trimmed: &Trimmed) -> Result<ModeT
         .zip(&model.damping)
         .map(|(m, xi)| C64::new(-xi, (1.0 - xi * xi).sqrt()) * m.omega_rad_s)
         .collect();
-    let elastic = follow(&uncoupled, &coupled, &in_vacuo)?;
+    let rigid_values: Vec<C64> = named.iter().map(|(_, value)| *value).collect();
+    let (elastic, flexible) = follow_all(&uncoupled, &coupled, &in_vacuo, &rigid_values)?;
     let elastic = elastic
         .into_iter()
         .enumerate()
@@ -208,18 +210,40 @@ pub fn mode_table_without_lags(model: &Model, trimmed: &Trimmed) -> Result<ModeT
         .collect();
     let rigid_body = named
         .into_iter()
-        .map(|(name, value)| {
-            let flexible = follow(&uncoupled, &coupled, &[value])
-                .ok()
-                .and_then(|found| found.first().map(|(v, _)| Mode::from_eigenvalue(*v)));
-            RigidBodyMode {
-                name,
-                rigid: Mode::from_eigenvalue(value),
-                flexible,
-            }
+        .zip(flexible)
+        .map(|((name, value), flexible)| RigidBodyMode {
+            name,
+            rigid: Mode::from_eigenvalue(value),
+            flexible: flexible.map(Mode::from_eigenvalue),
         })
         .collect();
     Ok(ModeTable { elastic, rigid_body })
+}
+
+/// Elastic modes with their certainty, and rigid-body modes where they can be followed. One path serves all; a
+/// rigid-body mode that cannot be followed (roll subsidence may meet a lag root) must not spoil the rest.
+#[allow(clippy::type_complexity)]
+fn follow_all(
+    from: &Mat<f64>,
+    to: &Mat<f64>,
+    elastic: &[C64],
+    rigid: &[C64],
+) -> Result<(Vec<(C64, f64)>, Vec<Option<C64>>), Error> {
+    let together: Vec<C64> = elastic.iter().chain(rigid).copied().collect();
+    if let Ok(mut found) = follow(from, to, &together) {
+        let rigid = found
+            .split_off(elastic.len())
+            .into_iter()
+            .map(|(value, _)| Some(value))
+            .collect();
+        return Ok((found, rigid));
+    }
+    let alone = |value: &C64| {
+        follow(from, to, &[*value])
+            .ok()
+            .and_then(|found| found.first().map(|(v, _)| *v))
+    };
+    Ok((follow(from, to, elastic)?, rigid.iter().map(alone).collect()))
 }
 
 /// Rigid aircraft, structure in vacuo and lags, none of which act on each other.
@@ -297,18 +321,14 @@ fn name_rigid_modes(a: &Mat<f64>, states: &[&str]) -> Result<Vec<(&'static str, 
 /// # Errors
 /// [`Error::Lti`].
 pub fn frequency_response(trimmed: &Trimmed, input: &str, omega_rad_s: &[f64]) -> Result<Response, Error> {
-    let outputs: Vec<&str> = trimmed.system.outputs.iter().map(|o| o.name.as_str()).collect();
-    let system = trimmed.system.select(&[input], &outputs)?;
-    let layout = trimmed.equations.layout();
-    let lags: Vec<&str> = system.states[layout.lags()]
+    let system = diagonal_lag_form(&trimmed.system, &trimmed.equations, trimmed.trim.speed())?;
+    let outputs: Vec<&str> = system.outputs.iter().map(|o| o.name.as_str()).collect();
+    let lags: Vec<&str> = system.states[trimmed.equations.layout().lags()]
         .iter()
         .map(|s| s.name.as_str())
         .collect();
-    // With lagged controls the lag states are driven directly; they stay diagonal among themselves only if the
-    // apparent mass does not couple them, which the solver checks.
-    let solver = FrequencySolver::with_lags(&system, &lags)
-        .or_else(|_| FrequencySolver::new(&system, albatross_lti::Method::Auto))?;
-    Ok(solver.response(omega_rad_s)?)
+    let system = system.select(&[input], &outputs)?;
+    Ok(FrequencySolver::with_lags(&system, &lags)?.response(omega_rad_s)?)
 }
 
 /// The manoeuvre of a case as the flight crate takes it.

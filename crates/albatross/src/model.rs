@@ -145,9 +145,9 @@ impl Model {
         Ok(trim(&self.aircraft, self.options, &self.point)?)
     }
 
-    /// Density of the flight point \[kg/m³\].
-    pub fn density(&self) -> f64 {
-        atmosphere::standard(self.point.altitude).density
+    /// Mach number of the flight point.
+    pub fn mach(&self) -> f64 {
+        self.point.speed / atmosphere::standard(self.point.altitude).speed_of_sound
     }
 }
 

@@ -1,3 +1,37 @@
 //! The command `albatross`.
 
-fn main() {}
+mod args;
+mod case;
+mod figures;
+mod neutral;
+mod output;
+mod run;
+mod tables;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match &arguments.command {
+        Command::Run(options) => run::run(options),
+        Command::Modes(options) => case::modes(options),
+        Command::Strips(options) => case::strips(options),
+        Command::Trim(options) => case::trim(options),
+        Command::Linearize(options) => case::linearize(options),
+        Command::ModesTable(options) => case::modes_table(options),
+        Command::Bode(options) => case::bode(options),
+        Command::Simulate(options) => case::simulate(options),
+        Command::Wing { file } => neutral::wing(file),
+        Command::Aircraft { file } => neutral::aircraft(file),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(output::Failure::Closed) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,6 +1,10 @@
 //! The F25-like surrogate through all stages.
 
-use albatross::{Inputs, Model};
+use albatross::analysis::{self, with_fidelity};
+use albatross::flight::Fidelity;
+use albatross::lti::{FrequencySolver, Method};
+use albatross::numerics::eigen;
+use albatross::{Case, Error, Inputs, Model};
 use std::path::PathBuf;
 
 fn case_file() -> PathBuf {
@@ -10,31 +14,288 @@ fn case_file() -> PathBuf {
     ))
 }
 
+fn inputs() -> Inputs {
+    Inputs::read(&case_file()).unwrap()
+}
+
+fn model(inputs: &Inputs, variant: &str) -> Model {
+    Model::build(inputs, &inputs.case.variant(Some(variant)).unwrap()).unwrap()
+}
+
+/// State count of theory: 12 rigid, 2 x 20 modal, 2 x (146 + 30 + 20) lags.
 #[test]
-fn probe() {
-    let inputs = Inputs::read(&case_file()).unwrap();
-    for name in ["avl", "corrected", "corrected_lagged", "engines_in_place"] {
-        let model = Model::build(&inputs, &inputs.case.variant(Some(name)).unwrap()).unwrap();
-        println!("== {name} {} {:?}", model.mass.mass, model.mass.cg);
-        for n in &model.notes {
-            println!("   {n}");
-        }
-        let t0 = std::time::Instant::now();
-        let (equations, trim) = model.trim().unwrap();
-        println!(
-            "alpha {:.5} de {:.5} T {:.1} res {:.2e} it {} eta {:.3e}",
-            trim.alpha_rad.to_degrees(),
-            trim.controls_rad[2].to_degrees(),
-            trim.thrust,
-            trim.residual,
-            trim.iterations,
-            trim.eta[0]
+fn val_size_of_the_full_model() {
+    let inputs = inputs();
+    let model = model(&inputs, "avl");
+    assert_eq!(model.strips.strips.len(), 146 + 30 + 20);
+    let trimmed = analysis::trimmed(&model).unwrap();
+    assert_eq!(trimmed.system.a.nrows(), 444);
+    // Strip areas of the wing along the dihedral against Sref = 130.1 in projection: 130.1/cos 5 deg but for the
+    // unswept centre; AVL prints 65.261 m2 a side.
+    let wing: f64 = model
+        .strips
+        .records
+        .iter()
+        .filter(|r| r.surface.starts_with("Wing"))
+        .map(|r| r.chord * r.width)
+        .sum();
+    assert!((wing - 2.0 * 65.261202).abs() < 1e-2, "{wing}");
+}
+
+/// AVL's own trim at CL 0.5644 is 1.33236 deg and -0.01128 deg; here thrust carries T sin(alpha) of the weight, which
+/// is 0.0012 of it and worth 0.005 deg.
+#[test]
+fn val_trim_with_avl_data() {
+    let inputs = inputs();
+    let (_, trim) = model(&inputs, "avl").trim().unwrap();
+    let alpha = trim.alpha_rad.to_degrees();
+    assert!((alpha - 1.33).abs() < 0.005, "{alpha}");
+    let lift_by_thrust = trim.thrust * trim.alpha_rad.sin() / (130.1 * trim.dynamic_pressure) / 7.296941;
+    assert!(
+        (alpha + lift_by_thrust.to_degrees() - 1.33236).abs() < 1e-3,
+        "{alpha}"
+    );
+    assert!(trim.residual < 1e-9);
+    assert!(
+        trim.eta.iter().all(|eta| *eta == 0.0),
+        "modes count from the trimmed shape"
+    );
+}
+
+/// The two solvers' results files lead to the same aircraft: frequencies of its modes within 1e-5.
+#[test]
+fn val_two_results_files_agree() {
+    let inputs = inputs();
+    let first = analysis::trimmed(&model(&inputs, "avl")).unwrap();
+    let mut other = inputs.clone();
+    other.results = albatross::nastran::f06::read(case_file().with_file_name("f25_nastran95.f06")).unwrap();
+    let second = analysis::trimmed(&model(&other, "avl")).unwrap();
+    let a = eigen::eigenvalues(first.system.a.as_ref()).unwrap();
+    let b = eigen::eigenvalues(second.system.a.as_ref()).unwrap();
+    let band = |v: &&albatross::numerics::C64| v.im > 10.0 && v.norm() < 95.0;
+    let pairs: Vec<_> = a.iter().filter(band).zip(b.iter().filter(band)).collect();
+    assert_eq!(pairs.len(), 20);
+    for (x, y) in pairs {
+        assert!((x - y).norm() < 1e-5 * x.norm(), "{x} {y}");
+    }
+}
+
+/// Every tracked mode is an eigenvalue of the full matrix, each is another one, and heavily damped lag roots that lie
+/// between them are none of them.
+#[test]
+fn val_mode_table_is_one_to_one() {
+    let inputs = inputs();
+    let model = model(&inputs, "avl");
+    let trimmed = analysis::trimmed(&model).unwrap();
+    let table = analysis::mode_table_without_lags(&model, &trimmed).unwrap();
+    let values = eigen::eigenvalues(trimmed.system.a.as_ref()).unwrap();
+    let mut used = vec![false; values.len()];
+    for mode in &table.elastic {
+        let (index, distance) = values
+            .iter()
+            .enumerate()
+            .map(|(i, v)| (i, (v.re - mode.re).hypot(v.im - mode.im)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap();
+        assert!(distance < 1e-7 * mode.omega_rad_s, "mode {}", mode.mode);
+        assert!(
+            !std::mem::replace(&mut used[index], true),
+            "mode {} taken twice",
+            mode.mode
         );
-        let system = albatross::flight::linearize(&equations, &trim.state, &trim.input).unwrap();
-        println!("linearised {} states in {:?}", system.a.nrows(), t0.elapsed());
-        let values = albatross::numerics::eigen::eigenvalues(system.a.as_ref()).unwrap();
-        for v in values.iter().filter(|v| v.im > 0.0 && v.norm() < 100.0) {
-            println!("   {:8.4} zeta {:.4}", v.norm(), -v.re / v.norm());
+        assert!(mode.damping_ratio < 0.3 && mode.confidence > 0.75);
+    }
+    let named = |name: &str| table.rigid_body.iter().find(|m| m.name == name).unwrap();
+    let short_period = named("short period").rigid.omega_rad_s;
+    assert!((1.6..1.8).contains(&short_period), "{short_period}");
+    let phugoid = named("phugoid").rigid.omega_rad_s;
+    assert!((0.055..0.075).contains(&phugoid), "{phugoid}");
+}
+
+/// The response with lags eliminated one by one against the dense solve of the full system.
+#[test]
+fn val_lag_eliminated_response_is_dense_response() {
+    let inputs = inputs();
+    for variant in ["avl", "corrected_lagged"] {
+        let trimmed = analysis::trimmed(&model(&inputs, variant)).unwrap();
+        let omega = [0.05, 1.7, 19.0, 54.0, 120.0];
+        let fast = analysis::frequency_response(&trimmed, "elevator", &omega).unwrap();
+        let outputs: Vec<&str> = trimmed.system.outputs.iter().map(|o| o.name.as_str()).collect();
+        let system = trimmed.system.select(&["elevator"], &outputs).unwrap();
+        let dense = FrequencySolver::new(&system, Method::Lu)
+            .unwrap()
+            .response(&omega)
+            .unwrap();
+        for (a, b) in fast.values.iter().zip(&dense.values) {
+            for i in 0..outputs.len() {
+                let (x, y) = (a[(i, 0)], b[(i, 0)]);
+                assert!(
+                    (x - y).norm() < 1e-8 * y.norm().max(1e-6),
+                    "{variant} {}: {x} {y}",
+                    outputs[i]
+                );
+            }
         }
     }
+}
+
+/// The corrections reach their places: slopes of the table on the strips, eight derivatives in the aircraft.
+#[test]
+fn val_corrections_are_applied() {
+    let inputs = inputs();
+    let (plain, corrected) = (model(&inputs, "avl"), model(&inputs, "corrected"));
+    let rigid = &corrected.aircraft.rigid;
+    assert_eq!(rigid.lift.alpha, 7.2145603873626705);
+    assert_eq!(rigid.pitch.controls[2], -3.8605300359807933);
+    // y = 0.4938 is the middle of the table's innermost bin (0 to 0.9875).
+    let strip = &corrected.strips.records[1];
+    assert!((strip.leading_edge[1] - 0.49375).abs() < 1e-3);
+    assert!((strip.cl_alpha - 5.46235).abs() < 1e-4, "{}", strip.cl_alpha);
+    let fin = |m: &Model| {
+        m.strips
+            .records
+            .iter()
+            .find(|r| r.surface == "VTP")
+            .unwrap()
+            .cl_alpha
+    };
+    assert_eq!(
+        fin(&plain),
+        fin(&corrected),
+        "a surface that the table lacks keeps its slopes"
+    );
+    assert!(
+        corrected
+            .notes
+            .iter()
+            .any(|n| n.contains("VTP") && n.contains("keeps"))
+    );
+    assert!(
+        corrected.notes.iter().any(|n| n.contains("not CFD")),
+        "provenance is kept"
+    );
+}
+
+/// Sums over strips against what AVL prints: the lift slopes of wing and tail (the rest of `CLa` is the nacelles'),
+/// elevator lift by construction, its moment by the tail arm within the induced part that strips leave out.
+#[test]
+fn val_strip_sums_against_rigid_derivatives() {
+    let inputs = inputs();
+    let model = model(&inputs, "avl");
+    let horizontal = |s: &str| s.starts_with("Wing") || s.starts_with("HTP");
+    let lift_slope: f64 = model
+        .strips
+        .records
+        .iter()
+        .filter(|r| horizontal(&r.surface))
+        .map(|r| r.chord * r.width * r.cl_alpha * r.dihedral_rad.cos() / 130.1)
+        .sum();
+    let surfaces = |i: usize| -> f64 {
+        inputs.strips[i]
+            .surfaces
+            .iter()
+            .filter(|s| horizontal(&s.name))
+            .map(|s| s.coefficients.c_lift)
+            .sum()
+    };
+    let printed = (surfaces(1) - surfaces(0)) / 1.0_f64.to_radians();
+    assert!(
+        (lift_slope / printed - 1.0).abs() < 2e-3,
+        "{lift_slope} {printed}"
+    );
+    let part = model.aircraft.elastic.as_ref().unwrap();
+    let (mut lift, mut moment) = (0.0, 0.0);
+    for (j, s) in part.model.strips.iter().enumerate() {
+        let force = part.control_incidence[(j, 2)] * s.cl_alpha * s.area() * s.dihedral_rad.cos();
+        lift += force / 130.1;
+        moment += force * (model.mass.cg[0] - s.x_ac) / (130.1 * model.aircraft.reference.chord);
+    }
+    assert!(
+        (lift / model.aircraft.rigid.lift.controls[2] - 1.0).abs() < 1e-9,
+        "{lift}"
+    );
+    assert!(
+        (moment / model.aircraft.rigid.pitch.controls[2] - 1.0).abs() < 0.05,
+        "{moment}"
+    );
+}
+
+/// With the engines at their place the thrust lifts the nose (they hang below the centre of gravity): the elevator goes
+/// down by the moment that it must balance.
+#[test]
+fn val_engines_in_place() {
+    let inputs = inputs();
+    let (_, through_cg) = model(&inputs, "avl").trim().unwrap();
+    let in_place = model(&inputs, "engines_in_place");
+    let (_, trim) = in_place.trim().unwrap();
+    let arm = -0.42767713408013835 - -2.30411;
+    let moment = trim.thrust * arm / (trim.dynamic_pressure * 130.1 * 3.3465);
+    let by_hand = -moment / in_place.aircraft.rigid.pitch.controls[2];
+    let change = trim.controls_rad[2] - through_cg.controls_rad[2];
+    // alpha moves with it, which trims a few percent of the moment.
+    assert!((change / by_hand - 1.0).abs() < 0.15, "{change} {by_hand}");
+}
+
+/// Quasi-steady and rigid fidelity keep their state counts and trims.
+#[test]
+fn val_fidelities() {
+    let inputs = inputs();
+    let model = model(&inputs, "avl");
+    let states = |f| with_fidelity(&model, f).unwrap().system.a.nrows();
+    assert_eq!(states(Fidelity::QuasiSteady), 12 + 40);
+    assert_eq!(states(Fidelity::Rigid), 12);
+}
+
+fn changed(from: &str, to: &str) -> Result<Case, Error> {
+    let text = std::fs::read_to_string(case_file()).unwrap();
+    assert!(text.contains(from), "the case has changed");
+    Case::parse(&text.replacen(from, to, 1), "case.toml")
+}
+
+#[test]
+fn val_case_errors_name_place_and_cure() {
+    let message = |from: &str, to: &str| changed(from, to).unwrap_err().to_string();
+    let missing = message("damping_ratio = 0.01", "# none");
+    assert!(
+        missing.contains("damping_ratio") && missing.contains("case.toml"),
+        "{missing}"
+    );
+    let unknown = message("mach = 0.78", "mack = 0.78");
+    assert!(
+        unknown.starts_with("case.toml:") && unknown.contains("mack"),
+        "{unknown}"
+    );
+    let axis = message("lra = \"wing_right\"", "lra = \"wing\"");
+    assert!(axis.contains("`wing`") && axis.contains("wing_right"), "{axis}");
+    let both = message("mach = 0.78", "mach = 0.78\nspeed = 200.0");
+    assert!(both.contains("both"), "{both}");
+}
+
+#[test]
+fn val_unknown_grid_is_named() {
+    let mut inputs = inputs();
+    inputs.case.sensors[5].grid = Some(3999);
+    let error = Model::build(&inputs, &inputs.case.variant(None).unwrap())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("3999"), "{error}");
+}
+
+/// A results file without eigenvectors is refused with the output request that makes them.
+#[test]
+fn val_results_without_vectors_are_refused() {
+    let text = std::fs::read_to_string(case_file().with_file_name("f25.f06")).unwrap();
+    let cut = text.find("E I G E N V E C T O R").unwrap();
+    let error = match albatross::nastran::f06::parse(&text.as_bytes()[..cut], "cut.f06") {
+        Err(error) => error.to_string(),
+        Ok(results) => {
+            let mut inputs = inputs();
+            inputs.results = results;
+            inputs.basis().unwrap_err().to_string()
+        }
+    };
+    assert!(
+        error.contains("DISPLACEMENT") || error.contains("VECTOR"),
+        "{error}"
+    );
 }

@@ -1,0 +1,131 @@
+//! Printing and writing. Files appear whole or not at all.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+
+/// Why a command ended early.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// From the library.
+    #[error(transparent)]
+    Albatross(#[from] albatross::Error),
+    /// From a neutral model.
+    #[error(transparent)]
+    Neutral(#[from] albatross::neutral::NeutralError),
+    /// From tables and plots.
+    #[error(transparent)]
+    Report(#[from] albatross::report::ReportError),
+    /// JSON could not be made.
+    #[error("JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    /// Writing failed.
+    #[error("{path}: cannot be written: {source}")]
+    Write {
+        /// File or directory.
+        path: String,
+        /// Cause.
+        source: std::io::Error,
+    },
+    /// Anything else.
+    #[error("{0}")]
+    Other(String),
+    /// The reader of standard output went away.
+    #[error("standard output was closed")]
+    Closed,
+}
+
+impl From<Box<dyn std::error::Error>> for Failure {
+    fn from(error: Box<dyn std::error::Error>) -> Self {
+        Self::Other(error.to_string())
+    }
+}
+
+impl From<albatross::lti::Error> for Failure {
+    fn from(error: albatross::lti::Error) -> Self {
+        Self::Albatross(error.into())
+    }
+}
+
+/// Prints to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| {
+            if text.ends_with('\n') {
+                Ok(())
+            } else {
+                out.write_all(b"\n")
+            }
+        })
+        .and_then(|()| out.flush())
+        .map_err(|source| match source.kind() {
+            std::io::ErrorKind::BrokenPipe => Failure::Closed,
+            _ => Failure::Write {
+                path: "standard output".into(),
+                source,
+            },
+        })
+}
+
+/// Prints a JSON value.
+pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    print(&serde_json::to_string_pretty(value)?)
+}
+
+/// A remark on standard error.
+pub(crate) fn remark(text: &str) {
+    // Nothing can be done about a closed standard error.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// An error on standard error, with its causes.
+pub(crate) fn error(failure: &Failure) {
+    let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let label = if colour {
+        "\u{1b}[1;31merror\u{1b}[0m"
+    } else {
+        "error"
+    };
+    remark(&format!("{label}: {failure}"));
+}
+
+/// Makes a directory with its parents.
+pub(crate) fn make_directory(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path).map_err(|source| Failure::Write {
+        path: path.display().to_string(),
+        source,
+    })
+}
+
+/// Writes a file by way of a temporary one beside it, so that a reader sees the old or the new content.
+pub(crate) fn write(path: &Path, content: &str) -> Result<(), Failure> {
+    let fail = |source: std::io::Error| Failure::Write {
+        path: path.display().to_string(),
+        source,
+    };
+    let directory = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    let mut file = tempfile::Builder::new()
+        .prefix(".albatross-")
+        .tempfile_in(directory)
+        .map_err(fail)?;
+    file.write_all(content.as_bytes()).map_err(fail)?;
+    file.as_file().sync_all().map_err(fail)?;
+    readable(file.as_file()).map_err(fail)?;
+    file.persist(path).map_err(|e| fail(e.error))?;
+    Ok(())
+}
+
+/// Temporary files are private; results are not.
+#[cfg(unix)]
+fn readable(file: &std::fs::File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn readable(_: &std::fs::File) -> std::io::Result<()> {
+    Ok(())
+}
