@@ -12,43 +12,47 @@ use super::card::Card;
 use super::elements::{self, BarBlanks, BarDefaults};
 use super::fields::Fields;
 use super::lists::NeedsPoints;
-use super::merge::{Merge, Row, Rows, keep, keep_all};
+use super::merge::Table;
 use super::points::{self, GridBlanks};
 use super::{constraints, properties};
 
 /// What has been read so far.
 #[derive(Default)]
 struct Tables {
-    grids: Rows<(Grid, GridBlanks)>,
-    coordinate_systems: Rows<crate::deck::CoordinateSystem>,
-    bars: Rows<(Cbar, BarBlanks)>,
-    beams: Rows<(Cbeam, BarBlanks)>,
-    rods: Rows<crate::deck::Crod>,
-    conrods: Rows<crate::deck::Conrod>,
-    conm1: Rows<crate::deck::Conm1>,
-    conm2: Rows<crate::deck::Conm2>,
-    scalar_masses: Rows<crate::deck::Cmass>,
-    mass_properties: Rows<f64>,
-    springs: Rows<crate::deck::Celas>,
-    bushes: Rows<crate::deck::Cbush>,
-    bar_properties: Rows<BarProperty>,
-    beam_properties: Rows<BeamProperty>,
-    rod_properties: Rows<crate::deck::Prod>,
-    spring_properties: Rows<crate::deck::Pelas>,
-    bush_properties: Rows<crate::deck::Pbush>,
-    materials: Rows<crate::deck::Mat1>,
-    rbe2: Rows<crate::deck::Rbe2>,
-    rbe3: Rows<crate::deck::Rbe3>,
-    rbars: Rows<crate::deck::Rbar>,
-    sets: Rows<crate::deck::Set1>,
-    eigr: Rows<crate::deck::Eigr>,
-    eigrl: Rows<crate::deck::Eigrl>,
+    grids: Table<Grid>,
+    coordinate_systems: Table<crate::deck::CoordinateSystem>,
+    bars: Table<Cbar>,
+    beams: Table<Cbeam>,
+    rods: Table<crate::deck::Crod>,
+    conrods: Table<crate::deck::Conrod>,
+    conm1: Table<crate::deck::Conm1>,
+    conm2: Table<crate::deck::Conm2>,
+    scalar_masses: Table<crate::deck::Cmass>,
+    mass_properties: Table<f64>,
+    springs: Table<crate::deck::Celas>,
+    bushes: Table<crate::deck::Cbush>,
+    bar_properties: Table<BarProperty>,
+    beam_properties: Table<BeamProperty>,
+    rod_properties: Table<crate::deck::Prod>,
+    spring_properties: Table<crate::deck::Pelas>,
+    bush_properties: Table<crate::deck::Pbush>,
+    materials: Table<crate::deck::Mat1>,
+    rbe2: Table<crate::deck::Rbe2>,
+    rbe3: Table<crate::deck::Rbe3>,
+    rbars: Table<crate::deck::Rbar>,
+    sets: Table<crate::deck::Set1>,
+    eigr: Table<crate::deck::Eigr>,
+    eigrl: Table<crate::deck::Eigrl>,
 }
 
 pub(super) struct Builder {
     files: Vec<Arc<str>>,
     remarks: Remarks,
     tables: Tables,
+    /// What was left blank, for defaults that may come later.
+    grid_blanks: Vec<(Id, GridBlanks)>,
+    bar_blanks: Vec<(Id, BarBlanks)>,
+    beam_blanks: Vec<(Id, BarBlanks)>,
     /// Unnumbered cards go straight into the deck.
     deck: Deck,
     bar_defaults: BarDefaults,
@@ -63,6 +67,9 @@ impl Builder {
             files: vec![Arc::from(name)],
             remarks: Remarks::default(),
             tables: Tables::default(),
+            grid_blanks: Vec::new(),
+            bar_blanks: Vec::new(),
+            beam_blanks: Vec::new(),
             deck: Deck::default(),
             bar_defaults: BarDefaults::default(),
             beam_defaults: BarDefaults::default(),
@@ -105,7 +112,12 @@ impl Builder {
         let t = &mut self.tables;
         let deck = &mut self.deck;
         match card.name() {
-            b"GRID" => keep(&mut t.grids, "GRID", points::grid(f), f),
+            b"GRID" => {
+                let (id, (grid, blanks)) = points::grid(f);
+                if t.grids.is_kept("GRID", (id, grid), f) {
+                    self.grid_blanks.push((id, blanks));
+                }
+            }
             b"GRDSET" => {
                 let defaults = points::grdset(f);
                 if !f.failed {
@@ -118,44 +130,41 @@ impl Builder {
                     deck.scalar_points.extend(members);
                 }
             }
-            b"CORD1R" => keep_all(
-                &mut t.coordinate_systems,
-                "CORD1R",
-                points::cord1(f, CoordinateKind::Rectangular),
-                f,
-            ),
-            b"CORD1C" => keep_all(
-                &mut t.coordinate_systems,
-                "CORD1C",
-                points::cord1(f, CoordinateKind::Cylindrical),
-                f,
-            ),
-            b"CORD1S" => keep_all(
-                &mut t.coordinate_systems,
-                "CORD1S",
-                points::cord1(f, CoordinateKind::Spherical),
-                f,
-            ),
-            b"CORD2R" => keep(
-                &mut t.coordinate_systems,
-                "CORD2R",
-                points::cord2(f, CoordinateKind::Rectangular),
-                f,
-            ),
-            b"CORD2C" => keep(
-                &mut t.coordinate_systems,
-                "CORD2C",
-                points::cord2(f, CoordinateKind::Cylindrical),
-                f,
-            ),
-            b"CORD2S" => keep(
-                &mut t.coordinate_systems,
-                "CORD2S",
-                points::cord2(f, CoordinateKind::Spherical),
-                f,
-            ),
-            b"CBAR" => keep(&mut t.bars, "CBAR", elements::cbar(f), f),
-            b"CBEAM" => keep(&mut t.beams, "CBEAM", elements::cbeam(f), f),
+            b"CORD1R" => {
+                t.coordinate_systems
+                    .keep_all("CORD1R", points::cord1(f, CoordinateKind::Rectangular), f)
+            }
+            b"CORD1C" => {
+                t.coordinate_systems
+                    .keep_all("CORD1C", points::cord1(f, CoordinateKind::Cylindrical), f)
+            }
+            b"CORD1S" => {
+                t.coordinate_systems
+                    .keep_all("CORD1S", points::cord1(f, CoordinateKind::Spherical), f)
+            }
+            b"CORD2R" => {
+                t.coordinate_systems
+                    .keep("CORD2R", points::cord2(f, CoordinateKind::Rectangular), f)
+            }
+            b"CORD2C" => {
+                t.coordinate_systems
+                    .keep("CORD2C", points::cord2(f, CoordinateKind::Cylindrical), f)
+            }
+            b"CORD2S" => t
+                .coordinate_systems
+                .keep("CORD2S", points::cord2(f, CoordinateKind::Spherical), f),
+            b"CBAR" => {
+                let (id, (bar, blanks)) = elements::cbar(f);
+                if t.bars.is_kept("CBAR", (id, bar), f) {
+                    self.bar_blanks.push((id, blanks));
+                }
+            }
+            b"CBEAM" => {
+                let (id, (beam, blanks)) = elements::cbeam(f);
+                if t.beams.is_kept("CBEAM", (id, beam), f) {
+                    self.beam_blanks.push((id, blanks));
+                }
+            }
             b"BAROR" => {
                 self.bar_defaults = elements::bar_defaults(f);
                 deck.raw.push(raw(card, file));
@@ -164,72 +173,53 @@ impl Builder {
                 self.beam_defaults = elements::bar_defaults(f);
                 deck.raw.push(raw(card, file));
             }
-            b"CROD" => keep(&mut t.rods, "CROD", elements::crod(f), f),
-            b"CONROD" => keep(&mut t.conrods, "CONROD", elements::conrod(f), f),
-            b"CONM1" => keep(&mut t.conm1, "CONM1", elements::conm1(f), f),
-            b"CONM2" => keep(&mut t.conm2, "CONM2", elements::conm2(f), f),
-            b"CMASS1" => keep(&mut t.scalar_masses, "CMASS1", elements::cmass(f, true, false), f),
-            b"CMASS2" => keep(
-                &mut t.scalar_masses,
-                "CMASS2",
-                elements::cmass(f, false, false),
-                f,
-            ),
-            b"CMASS3" => keep(&mut t.scalar_masses, "CMASS3", elements::cmass(f, true, true), f),
-            b"CMASS4" => keep(&mut t.scalar_masses, "CMASS4", elements::cmass(f, false, true), f),
-            b"PMASS" => keep_all(&mut t.mass_properties, "PMASS", elements::pmass(f), f),
-            b"CELAS1" => keep(&mut t.springs, "CELAS1", elements::celas1(f), f),
-            b"CELAS2" => keep(&mut t.springs, "CELAS2", elements::celas2(f), f),
-            b"CBUSH" => keep(&mut t.bushes, "CBUSH", elements::cbush(f), f),
+            b"CROD" => t.rods.keep("CROD", elements::crod(f), f),
+            b"CONROD" => t.conrods.keep("CONROD", elements::conrod(f), f),
+            b"CONM1" => t.conm1.keep("CONM1", elements::conm1(f), f),
+            b"CONM2" => t.conm2.keep("CONM2", elements::conm2(f), f),
+            b"CMASS1" => t.scalar_masses.keep("CMASS1", elements::cmass(f, true, false), f),
+            b"CMASS2" => t
+                .scalar_masses
+                .keep("CMASS2", elements::cmass(f, false, false), f),
+            b"CMASS3" => t.scalar_masses.keep("CMASS3", elements::cmass(f, true, true), f),
+            b"CMASS4" => t.scalar_masses.keep("CMASS4", elements::cmass(f, false, true), f),
+            b"PMASS" => t.mass_properties.keep_all("PMASS", elements::pmass(f), f),
+            b"CELAS1" => t.springs.keep("CELAS1", elements::celas1(f), f),
+            b"CELAS2" => t.springs.keep("CELAS2", elements::celas2(f), f),
+            b"CBUSH" => t.bushes.keep("CBUSH", elements::cbush(f), f),
             b"PBAR" => {
                 let (id, property) = properties::pbar(f);
-                keep(
-                    &mut t.bar_properties,
-                    "PBAR",
-                    (id, BarProperty::Pbar(property)),
-                    f,
-                );
+                t.bar_properties
+                    .keep("PBAR", (id, BarProperty::Pbar(property)), f);
             }
             b"PBARL" => match properties::shape(f, 4) {
                 Some(shape) => {
                     let (id, property) = properties::pbarl(f, shape);
-                    keep(
-                        &mut t.bar_properties,
-                        "PBARL",
-                        (id, BarProperty::Pbarl(property)),
-                        f,
-                    );
+                    t.bar_properties
+                        .keep("PBARL", (id, BarProperty::Pbarl(property)), f);
                 }
                 None => unknown_section(card, f, file, deck),
             },
             b"PBEAM" => {
                 let (id, property) = properties::pbeam(f);
-                keep(
-                    &mut t.beam_properties,
-                    "PBEAM",
-                    (id, BeamProperty::Pbeam(Box::new(property))),
-                    f,
-                );
+                t.beam_properties
+                    .keep("PBEAM", (id, BeamProperty::Pbeam(Box::new(property))), f);
             }
             b"PBEAML" => match properties::shape(f, 4) {
                 Some(shape) => {
                     let (id, property) = properties::pbeaml(f, shape);
-                    keep(
-                        &mut t.beam_properties,
-                        "PBEAML",
-                        (id, BeamProperty::Pbeaml(property)),
-                        f,
-                    );
+                    t.beam_properties
+                        .keep("PBEAML", (id, BeamProperty::Pbeaml(property)), f);
                 }
                 None => unknown_section(card, f, file, deck),
             },
-            b"PROD" => keep(&mut t.rod_properties, "PROD", properties::prod(f), f),
-            b"PELAS" => keep_all(&mut t.spring_properties, "PELAS", properties::pelas(f), f),
-            b"PBUSH" => keep(&mut t.bush_properties, "PBUSH", properties::pbush(f), f),
-            b"MAT1" => keep(&mut t.materials, "MAT1", properties::mat1(f), f),
-            b"RBE2" => keep(&mut t.rbe2, "RBE2", constraints::rbe2(f, known)?, f),
-            b"RBE3" => keep(&mut t.rbe3, "RBE3", constraints::rbe3(f, known)?, f),
-            b"RBAR" => keep(&mut t.rbars, "RBAR", constraints::rbar(f), f),
+            b"PROD" => t.rod_properties.keep("PROD", properties::prod(f), f),
+            b"PELAS" => t.spring_properties.keep_all("PELAS", properties::pelas(f), f),
+            b"PBUSH" => t.bush_properties.keep("PBUSH", properties::pbush(f), f),
+            b"MAT1" => t.materials.keep("MAT1", properties::mat1(f), f),
+            b"RBE2" => t.rbe2.keep("RBE2", constraints::rbe2(f, known)?, f),
+            b"RBE3" => t.rbe3.keep("RBE3", constraints::rbe3(f, known)?, f),
+            b"RBAR" => t.rbars.keep("RBAR", constraints::rbar(f), f),
             b"MPC" => extend(&mut deck.mpcs, [constraints::mpc(f)], f),
             b"SPC" => extend(&mut deck.spcs, constraints::spc(f), f),
             b"SPC1" => extend(&mut deck.spc1s, [constraints::spc1(f, known)?], f),
@@ -239,9 +229,9 @@ impl Builder {
             b"ASET1" => extend(&mut deck.asets, [constraints::dof_list(f, known)?], f),
             b"OMIT" => extend(&mut deck.omits, constraints::dof_pairs(f), f),
             b"OMIT1" => extend(&mut deck.omits, [constraints::dof_list(f, known)?], f),
-            b"SET1" => keep(&mut t.sets, "SET1", constraints::set1(f, known)?, f),
-            b"EIGR" => keep(&mut t.eigr, "EIGR", constraints::eigr(f), f),
-            b"EIGRL" => keep(&mut t.eigrl, "EIGRL", constraints::eigrl(f), f),
+            b"SET1" => t.sets.keep("SET1", constraints::set1(f, known)?, f),
+            b"EIGR" => t.eigr.keep("EIGR", constraints::eigr(f), f),
+            b"EIGRL" => t.eigrl.keep("EIGRL", constraints::eigrl(f), f),
             b"PARAM" => {
                 let param = constraints::param(f);
                 if !f.failed
@@ -265,57 +255,68 @@ impl Builder {
     /// The deck without control sections, and all remarks.
     pub(super) fn finish(mut self) -> (Deck, Vec<Diagnostic>) {
         self.read_deferred();
+        self.apply_defaults();
         let mut deck = std::mem::take(&mut self.deck);
-        let t = std::mem::take(&mut self.tables);
-        let grdset = deck.grdset.clone().unwrap_or_default();
-        let mut merge = Merge {
-            origins: Origins::new(self.files.clone()),
-            remarks: &mut self.remarks,
-        };
-        deck.grids = merge.map_with(t.grids, |(mut grid, blanks)| {
-            blanks.apply(&grdset, &mut grid);
-            grid
-        });
-        deck.coordinate_systems = merge.map(t.coordinate_systems);
-        deck.bars = merge.map_with(t.bars, |(mut bar, blanks)| {
-            let defaults = &self.bar_defaults;
-            defaults.apply(blanks, &mut bar.pid, &mut bar.orientation, &mut bar.offset_frames);
-            bar
-        });
-        deck.beams = merge.map_with(t.beams, |(mut beam, blanks)| {
-            let defaults = &self.beam_defaults;
-            defaults.apply(
-                blanks,
-                &mut beam.pid,
-                &mut beam.orientation,
-                &mut beam.offset_frames,
-            );
-            beam
-        });
-        deck.rods = merge.map(t.rods);
-        deck.conrods = merge.map(t.conrods);
-        deck.conm1 = merge.map(t.conm1);
-        deck.conm2 = merge.map(t.conm2);
-        deck.scalar_masses = merge.map(t.scalar_masses);
-        deck.mass_properties = merge.map(t.mass_properties);
-        deck.springs = merge.map(t.springs);
-        deck.bushes = merge.map(t.bushes);
-        deck.bar_properties = merge.map(t.bar_properties);
-        deck.beam_properties = merge.map(t.beam_properties);
-        deck.rod_properties = merge.map(t.rod_properties);
-        deck.spring_properties = merge.map(t.spring_properties);
-        deck.bush_properties = merge.map(t.bush_properties);
-        deck.materials = merge.map(t.materials);
-        deck.rbe2 = merge.map(t.rbe2);
-        deck.rbe3 = merge.map(t.rbe3);
-        deck.rbars = merge.map(t.rbars);
-        deck.sets = merge.map(t.sets);
-        deck.eigr = merge.map(t.eigr);
-        deck.eigrl = merge.map(t.eigrl);
-        deck.origins = merge.origins;
+        let mut origins = Origins::new(self.files.clone());
+        let (o, r) = (&mut origins, &mut self.remarks);
+        let t = self.tables;
+        deck.grids = t.grids.finish(o, r);
+        deck.coordinate_systems = t.coordinate_systems.finish(o, r);
+        deck.bars = t.bars.finish(o, r);
+        deck.beams = t.beams.finish(o, r);
+        deck.rods = t.rods.finish(o, r);
+        deck.conrods = t.conrods.finish(o, r);
+        deck.conm1 = t.conm1.finish(o, r);
+        deck.conm2 = t.conm2.finish(o, r);
+        deck.scalar_masses = t.scalar_masses.finish(o, r);
+        deck.mass_properties = t.mass_properties.finish(o, r);
+        deck.springs = t.springs.finish(o, r);
+        deck.bushes = t.bushes.finish(o, r);
+        deck.bar_properties = t.bar_properties.finish(o, r);
+        deck.beam_properties = t.beam_properties.finish(o, r);
+        deck.rod_properties = t.rod_properties.finish(o, r);
+        deck.spring_properties = t.spring_properties.finish(o, r);
+        deck.bush_properties = t.bush_properties.finish(o, r);
+        deck.materials = t.materials.finish(o, r);
+        deck.rbe2 = t.rbe2.finish(o, r);
+        deck.rbe3 = t.rbe3.finish(o, r);
+        deck.rbars = t.rbars.finish(o, r);
+        deck.sets = t.sets.finish(o, r);
+        deck.eigr = t.eigr.finish(o, r);
+        deck.eigrl = t.eigrl.finish(o, r);
+        deck.origins = origins;
         let name = self.files.first().cloned().unwrap_or_default();
         super::check::references(&deck, &name, &mut self.remarks);
         (deck, self.remarks.finish(&name))
+    }
+
+    /// GRDSET, BAROR and BEAMOR may stand after the cards whose blanks they fill.
+    fn apply_defaults(&mut self) {
+        let t = &mut self.tables;
+        if let Some(defaults) = &self.deck.grdset {
+            for (id, blanks) in self.grid_blanks.drain(..) {
+                if let Some(grid) = t.grids.get_mut(id) {
+                    blanks.apply(defaults, grid);
+                }
+            }
+        }
+        if !self.bar_defaults.is_empty() {
+            for (id, blanks) in self.bar_blanks.drain(..) {
+                if let Some(bar) = t.bars.get_mut(id) {
+                    let (pid, frames) = (&mut bar.pid, &mut bar.offset_frames);
+                    self.bar_defaults.apply(blanks, pid, &mut bar.orientation, frames);
+                }
+            }
+        }
+        if !self.beam_defaults.is_empty() {
+            for (id, blanks) in self.beam_blanks.drain(..) {
+                if let Some(beam) = t.beams.get_mut(id) {
+                    let (pid, frames) = (&mut beam.pid, &mut beam.offset_frames);
+                    self.beam_defaults
+                        .apply(blanks, pid, &mut beam.orientation, frames);
+                }
+            }
+        }
     }
 
     /// Cards with long ranges take the points that the deck has.
@@ -324,7 +325,7 @@ impl Builder {
         if deferred.is_empty() {
             return;
         }
-        let mut known: Vec<Id> = self.tables.grids.iter().map(Row::id).collect();
+        let mut known: Vec<Id> = self.tables.grids.ids().collect();
         known.extend(&self.deck.scalar_points);
         known.sort_unstable();
         known.dedup();

@@ -19,6 +19,10 @@ pub(super) struct BarDefaults {
 }
 
 impl BarDefaults {
+    pub(super) fn is_empty(&self) -> bool {
+        self.pid.is_none() && self.orientation.is_none() && self.offset_frames.is_none()
+    }
+
     /// Fills what the card left blank.
     pub(super) fn apply(
         &self,

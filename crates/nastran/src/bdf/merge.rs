@@ -1,6 +1,7 @@
-//! From lists of numbered cards to maps, with a remark on every number that is given twice.
+//! Numbered cards by number, with a remark on every number that is given twice.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use crate::deck::{Id, Origins};
 use crate::error::Severity;
@@ -8,102 +9,107 @@ use crate::remarks::Remarks;
 
 use super::fields::Fields;
 
-/// A numbered card and where it stands.
-pub(super) struct Row<T> {
-    id: Id,
-    name: &'static str,
-    file: u32,
-    line: u32,
-    value: T,
+/// Number, file and line.
+type Place = (Id, u32, u32);
+
+/// Cards of one kind. They go straight into the map: for large decks most time is spent on fresh memory, so there is
+/// no list between.
+#[derive(Debug)]
+pub(super) struct Table<T> {
+    map: BTreeMap<Id, T>,
+    /// For each card name: number, file and line.
+    places: Vec<(&'static str, Vec<Place>)>,
+    /// Numbers given again: card name, and whether the card is the same.
+    twice: Vec<(&'static str, Id, bool)>,
 }
 
-/// Numbered cards in the order of the file. They are sorted once at the end: decks are nearly sorted, and maps grow
-/// slowly.
-pub(super) type Rows<T> = Vec<Row<T>>;
-
-/// Adds a card unless one of its fields could not be read.
-pub(super) fn keep<T>(rows: &mut Rows<T>, name: &'static str, (id, value): (Id, T), f: &Fields<'_>) {
-    if !f.failed {
-        rows.push(Row {
-            id,
-            name,
-            file: f.card.file,
-            line: f.card.line,
-            value,
-        });
+impl<T> Default for Table<T> {
+    fn default() -> Self {
+        Self {
+            map: BTreeMap::new(),
+            places: Vec::new(),
+            twice: Vec::new(),
+        }
     }
 }
 
-/// Adds what a card with several numbers holds.
-pub(super) fn keep_all<T>(rows: &mut Rows<T>, name: &'static str, values: Vec<(Id, T)>, f: &Fields<'_>) {
-    for value in values {
-        keep(rows, name, value, f);
-    }
-}
-
-impl<T> Row<T> {
-    pub(super) fn id(&self) -> Id {
-        self.id
-    }
-}
-
-pub(super) struct Merge<'a> {
-    pub(super) origins: Origins,
-    pub(super) remarks: &'a mut Remarks,
-}
-
-impl Merge<'_> {
-    pub(super) fn map<T: PartialEq>(&mut self, rows: Rows<T>) -> BTreeMap<Id, T> {
-        self.map_with(rows, |value| value)
+impl<T: PartialEq> Table<T> {
+    /// Adds a card unless one of its fields could not be read. The first card of a number counts: solvers take
+    /// identical copies, and refuse others.
+    pub(super) fn keep(&mut self, name: &'static str, card: (Id, T), f: &Fields<'_>) {
+        self.is_kept(name, card, f);
     }
 
-    /// The map of the finished values. The first card of a number counts: solvers take identical copies, and refuse
-    /// others.
-    pub(super) fn map_with<T: PartialEq, U>(
-        &mut self,
-        mut rows: Rows<T>,
-        finish: impl Fn(T) -> U,
-    ) -> BTreeMap<Id, U> {
-        rows.sort_by_key(|row| row.id);
-        for run in rows.chunk_by(|a, b| a.name == b.name) {
-            if let Some(first) = run.first() {
-                self.origins
-                    .extend(first.name, run.iter().map(|row| (row.id, row.file, row.line)));
+    /// Like [`keep`](Self::keep); true if the card was added.
+    pub(super) fn is_kept(&mut self, name: &'static str, (id, value): (Id, T), f: &Fields<'_>) -> bool {
+        if f.failed {
+            return false;
+        }
+        let place = (id, f.card.file, f.card.line);
+        match self.places.iter_mut().find(|(n, _)| *n == name) {
+            Some((_, places)) => places.push(place),
+            None => self.places.push((name, vec![place])),
+        }
+        match self.map.entry(id) {
+            Entry::Vacant(entry) => {
+                entry.insert(value);
+                true
+            }
+            Entry::Occupied(first) => {
+                self.twice.push((name, id, *first.get() == value));
+                false
             }
         }
-        rows.dedup_by(|later, first| {
-            let twice = later.id == first.id;
-            if twice {
-                self.twice(first.id, first.name, later.name, later.value == first.value);
-            }
-            twice
-        });
-        rows.into_iter().map(|row| (row.id, finish(row.value))).collect()
     }
 
-    #[cold]
-    fn twice(&mut self, id: Id, first: &str, later: &str, same: bool) {
-        let mut origins: Vec<_> = self.origins.all(first, id).collect();
-        if later != first {
-            origins.extend(self.origins.all(later, id));
+    /// Adds what a card with several numbers holds.
+    pub(super) fn keep_all(&mut self, name: &'static str, values: Vec<(Id, T)>, f: &Fields<'_>) {
+        for value in values {
+            self.keep(name, value, f);
         }
-        let places: Vec<String> = origins.iter().map(ToString::to_string).collect();
-        let Some(origin) = origins.last() else { return };
-        let (severity, how) = if same {
-            (Severity::Warning, "identical; one is kept")
-        } else {
-            (Severity::Error, "different; renumber or remove one")
-        };
-        self.remarks.push(
-            severity,
-            &origin.file,
-            origin.line,
-            format!("{later} {id}"),
-            format!(
-                "the number is given {} times, {how} ({})",
-                places.len(),
-                places.join(", ")
-            ),
-        );
+    }
+
+    pub(super) fn ids(&self) -> impl Iterator<Item = Id> {
+        self.map.keys().copied()
+    }
+
+    /// Access to a card that was kept.
+    pub(super) fn get_mut(&mut self, id: Id) -> Option<&mut T> {
+        self.map.get_mut(&id)
+    }
+
+    /// The map; places go to `origins`, remarks on numbers given twice to `remarks`.
+    pub(super) fn finish(self, origins: &mut Origins, remarks: &mut Remarks) -> BTreeMap<Id, T> {
+        let names: Vec<&'static str> = self.places.iter().map(|(name, _)| *name).collect();
+        for (name, mut places) in self.places {
+            places.sort_by_key(|place| place.0);
+            origins.insert(name, places);
+        }
+        let mut twice = self.twice;
+        twice.dedup_by_key(|t| t.1);
+        for (name, id, same) in twice {
+            let all: Vec<_> = names.iter().flat_map(|n| origins.all(n, id)).collect();
+            let places: Vec<String> = all.iter().map(ToString::to_string).collect();
+            let Some(origin) = origins.all(name, id).last() else {
+                continue;
+            };
+            let (severity, how) = if same {
+                (Severity::Warning, "identical; one is kept")
+            } else {
+                (Severity::Error, "different; renumber or remove one")
+            };
+            remarks.push(
+                severity,
+                &origin.file,
+                origin.line,
+                format!("{name} {id}"),
+                format!(
+                    "the number is given {} times, {how} ({})",
+                    places.len(),
+                    places.join(", ")
+                ),
+            );
+        }
+        self.map
     }
 }

@@ -43,9 +43,9 @@ impl Origins {
         }
     }
 
-    /// Adds places of one card name, which must come in ascending order of number over all calls.
-    pub(crate) fn extend(&mut self, name: &'static str, places: impl Iterator<Item = (Id, u32, u32)>) {
-        self.places.entry(name).or_default().extend(places);
+    /// Sets the places of a card name, in ascending order of number.
+    pub(crate) fn insert(&mut self, name: &'static str, places: Vec<(Id, u32, u32)>) {
+        self.places.insert(name, places);
     }
 
     /// All places of the card `name` with number `id`, in file order.
