@@ -88,6 +88,41 @@ pub fn lag_transfer(lags: &[Lag], p: C64) -> C64 {
         .fold(C64::new(1.0, 0.0), |sum, lag| sum + lag.gain * p / (p - lag.rate))
 }
 
+/// `s dC/ds` of [`lag_transfer`]: `-sum A_i a_i s / (s - a_i)^2`.
+fn lag_transfer_by_logarithm(lags: &[Lag], s: C64) -> C64 {
+    lags.iter()
+        .map(|lag| -lag.gain * lag.rate * s / ((s - lag.rate) * (s - lag.rate)))
+        .sum()
+}
+
+/// How the circulatory lift follows the downwash: the function `C(s)` of the reduced Laplace variable `s = p b/V`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kernel<'a> {
+    /// Theodorsen's function at `k = Im s`: exact on the imaginary axis, and the p-k method's approximation off it.
+    Theodorsen,
+    /// Exponential lags, exact at any `s`; no lag at all is `C = 1`.
+    Lags(&'a [Lag]),
+}
+
+impl Kernel<'_> {
+    /// `C(s)`.
+    pub fn at(self, s: C64) -> C64 {
+        match self {
+            Self::Theodorsen => theodorsen(s.im),
+            Self::Lags(lags) => lag_transfer(lags, s),
+        }
+    }
+
+    /// `dC/d ln s`, along the imaginary axis for Theodorsen's function: `k dC/dk`.
+    pub fn by_logarithm(self, s: C64) -> C64 {
+        match self {
+            Self::Theodorsen if s.im == 0.0 => C64::new(0.0, 0.0),
+            Self::Theodorsen => s.im * theodorsen_derivative(s.im),
+            Self::Lags(lags) => lag_transfer_by_logarithm(lags, s),
+        }
+    }
+}
+
 /// The indicial response of lags after `s` semi-chords: `1 + sum A_i exp(a_i s)`.
 pub fn indicial_lags(lags: &[Lag], s: f64) -> f64 {
     lags.iter()
@@ -199,5 +234,21 @@ mod tests {
         let by_hand = C64::new(1.0, 0.0) - 0.165 * p / (p + 0.0455) - 0.335 * p / (p + 0.3);
         assert!((lag_transfer(&JONES, p) - by_hand).norm() < 1e-15);
         assert_eq!(theodorsen(-0.2), theodorsen(0.2).conj());
+    }
+
+    /// Both kernels' logarithmic derivatives against central differences.
+    #[test]
+    fn val_derivatives_of_kernels() {
+        for kernel in [Kernel::Theodorsen, Kernel::Lags(&JONES)] {
+            for k in [1e-3, 0.04, 0.3, 2.0, 30.0] {
+                let (s, h) = (C64::new(0.0, k), 1e-5);
+                let difference = (kernel.at(s * (1.0 + h)) - kernel.at(s * (1.0 - h))) / (2.0 * h);
+                let exact = kernel.by_logarithm(s);
+                assert!(
+                    (difference - exact).norm() < 1e-9,
+                    "{kernel:?} at {k}: {difference} {exact}"
+                );
+            }
+        }
     }
 }

@@ -47,6 +47,8 @@ pub mod elastic;
 pub mod flutter;
 pub mod forces;
 pub mod kernels;
+pub mod neutral;
+mod operator;
 pub mod quasi_steady;
 pub mod section;
 pub mod shapes;
