@@ -261,8 +261,8 @@ fn eigen_form(system: &StateSpace) -> Result<Form> {
 
 fn eigen_evaluate(system: &StateSpace, form: (&[C64], &Mat<C64>, &Mat<C64>), s: C64) -> Result<Mat<C64>> {
     let (values, cv, vb) = form;
-    let mut weights = Vec::with_capacity(values.len());
-    for value in values {
+    let mut weighted = vb.clone();
+    for (k, value) in values.iter().enumerate() {
         let distance = s - value;
         if distance.norm() <= 4.0 * f64::EPSILON * s.norm().max(value.norm()) {
             return Err(Error::PoleAtFrequency {
@@ -271,16 +271,10 @@ fn eigen_evaluate(system: &StateSpace, form: (&[C64], &Mat<C64>, &Mat<C64>), s: 
                 im: s.im,
             });
         }
-        weights.push(distance.inv());
+        let weight = distance.inv();
+        (0..vb.ncols()).for_each(|j| weighted[(k, j)] *= weight);
     }
-    Ok(Mat::from_fn(cv.nrows(), vb.ncols(), |i, j| {
-        let sum: C64 = weights
-            .iter()
-            .enumerate()
-            .map(|(k, w)| cv[(i, k)] * w * vb[(k, j)])
-            .sum();
-        sum + system.d[(i, j)]
-    }))
+    Ok(cv * &weighted + complex(&system.d))
 }
 
 /// Complex response of all channels over frequency.

@@ -13,7 +13,7 @@
 //! |---|---|---|
 //! | [`state_space`] | matrices and names | [`StateSpace`]: selection and connection by name |
 //! | [`modes`] | a system | [`Mode`]: frequency, damping, participating states |
-//! | [`track`] | a family of matrices | eigenvalues in the order of the modes chosen at its start |
+//! | [`track`](mod@track) | a family of matrices | eigenvalues in the order of the modes chosen at its start |
 //! | [`frequency`] | a system, frequencies in rad/s | [`Response`]: magnitude and unwrapped phase |
 //! | [`simulation`] | a system, sampled or continuous inputs | [`History`] of states and outputs |
 //! | [`zpk`], [`polynomial`] | a channel | zeros, poles and gain; transfer function; state space again |

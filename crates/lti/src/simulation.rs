@@ -6,7 +6,7 @@
 
 use albatross_numerics::Mat;
 use albatross_numerics::integrate::{Rk4, Stage};
-use albatross_numerics::matrix::RowMatrix;
+use albatross_numerics::matrix::{PreparedMatrix, RowMatrix};
 
 use crate::error::SignalKind;
 use crate::exponential::exponential;
@@ -21,7 +21,7 @@ pub enum Hold {
     First,
 }
 
-/// A sampled system: x[k+1] = Phi x[k] + G0 u[k] + G1 u[k+1], y[k] = C x[k] + D u[k].
+/// A sampled system: `x[k+1] = Phi x[k] + G0 u[k] + G1 u[k+1]`, `y[k] = C x[k] + D u[k]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Discrete {
     /// Step, s.
@@ -146,8 +146,8 @@ pub fn simulate(
         });
     }
     let step = discretise(system, dt, hold)?;
-    let [phi, gamma0, gamma1, c, d] =
-        [&step.phi, &step.gamma0, &step.gamma1, &system.c, &system.d].map(|m| RowMatrix::from(m.as_ref()));
+    let [phi, gamma0, gamma1, c, d] = [&step.phi, &step.gamma0, &step.gamma1, &system.c, &system.d]
+        .map(|m| PreparedMatrix::new(m.as_ref()));
     let mut x = initial_state(system, initial)?;
     let mut next_x = x.clone();
     let mut history = History::new(system, dt, inputs.len());
@@ -177,7 +177,7 @@ pub fn simulate_rk4(
     mut input: impl FnMut(f64, Stage, &mut [f64]),
 ) -> Result<History> {
     check_step(dt)?;
-    let [a, b, c, d] = [&system.a, &system.b, &system.c, &system.d].map(|m| RowMatrix::from(m.as_ref()));
+    let [a, b, c, d] = [&system.a, &system.b, &system.c, &system.d].map(|m| PreparedMatrix::new(m.as_ref()));
     let mut x = initial_state(system, initial)?;
     let mut u = vec![0.0; system.inputs.len()];
     let mut method = Rk4::new(x.len());
@@ -216,7 +216,7 @@ fn initial_state(system: &StateSpace, initial: Option<&[f64]>) -> Result<Vec<f64
 }
 
 /// Writes x and y = C x + D u as row `k`.
-fn record(history: &mut History, k: usize, (c, d): (&RowMatrix, &RowMatrix), x: &[f64], u: &[f64]) {
+fn record(history: &mut History, k: usize, (c, d): (&PreparedMatrix, &PreparedMatrix), x: &[f64], u: &[f64]) {
     let (nx, ny) = (history.states.cols(), history.outputs.cols());
     if let Some(row) = history.states.data_mut().get_mut(k * nx..(k + 1) * nx) {
         row.copy_from_slice(x);

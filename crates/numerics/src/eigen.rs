@@ -5,9 +5,10 @@
 //! rounding of the large ones. Balancing by powers of two changes no digit of the input and restores them.
 
 use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::evd::{self, ComputeEigenvectors};
-use faer::linalg::solvers::{GeneralizedEigen, Llt, SelfAdjointEigen};
+use faer::linalg::gevd;
+use faer::linalg::solvers::{Llt, SelfAdjointEigen};
 use faer::{Par, Side};
 
 use crate::matrix::{check_finite, check_shape, max_abs};
@@ -272,16 +273,44 @@ pub fn generalized_eigenvalues(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Result
     if n == 0 || max_abs(b) == 0.0 {
         return Ok(Vec::new());
     }
-    let (a, b) = balance_pencil(a, b);
-    let pencil =
-        GeneralizedEigen::new_from_real(a.as_ref(), b.as_ref()).map_err(|_| no_convergence(a.as_ref()))?;
+    let (mut a, mut b) = balance_pencil(a, b);
     let negligible = n as f64 * f64::EPSILON * max_abs(b.as_ref());
-    let mut values: Vec<C64> = (0..n)
-        .map(|k| (pencil.S_a()[k], pencil.S_b()[k]))
-        .filter(|(_, beta)| beta.norm() > negligible)
-        .map(|(alpha, beta)| alpha / beta)
-        .filter(|value| value.is_finite())
-        .collect();
+    let (mut re, mut im, mut beta) = (
+        Diag::<f64>::zeros(n),
+        Diag::<f64>::zeros(n),
+        Diag::<f64>::zeros(n),
+    );
+    let no = ComputeEigenvectors::No;
+    // The library's own estimate is too small at low orders; eight more columns are ample.
+    let scratch = gevd::gevd_scratch::<f64>(n, no, no, Par::Seq, Default::default())
+        .and(StackReq::new::<f64>(8 * (n + 64)));
+    gevd::gevd_real(
+        a.as_mut(),
+        b.as_mut(),
+        re.as_mut(),
+        im.as_mut(),
+        beta.as_mut(),
+        None,
+        None,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| no_convergence(a.as_ref()))?;
+    let mut values = Vec::with_capacity(n);
+    let mut k = 0;
+    while k < n {
+        let value = C64::new(re[k], im[k]) / beta[k];
+        let finite = beta[k].abs() > negligible && value.is_finite();
+        // The first member of a pair speaks for both: beta of the second is not scaled to its alpha.
+        let members = if im[k] == 0.0 { 1 } else { 2 };
+        values.extend(
+            [value, value.conj()]
+                .into_iter()
+                .take(if finite { members } else { 0 }),
+        );
+        k += members;
+    }
     order_by_modulus(&mut values);
     Ok(values)
 }
