@@ -52,6 +52,15 @@ impl<'r> DeckReader<'r> {
     pub(super) fn read(mut self, text: &[u8]) -> (Deck, Vec<Diagnostic>) {
         self.section = first_section(text);
         self.file(text, 0);
+        if matches!(self.section, Section::Executive | Section::CaseControl) {
+            self.remark(
+                Severity::Error,
+                0,
+                0,
+                "BEGIN BULK",
+                "is missing, so that no bulk data was read; put it between case control and the first card",
+            );
+        }
         self.assembler.finish(&mut self.builder);
         let (mut deck, diagnostics) = self.builder.finish();
         deck.executive = self.executive;

@@ -135,11 +135,32 @@ pub struct Deck {
 }
 
 impl Deck {
+    /// A parameter by upper-case name: of the bulk data, else of case control (`PARAM,name,value`).
+    #[must_use]
+    pub fn param(&self, name: &str) -> Option<Param> {
+        self.params.get(name).cloned().or_else(|| {
+            self.case_control.iter().find_map(|line| {
+                let line = line.to_uppercase();
+                let mut words = line.split([',', ' ', '\t', '=']).filter(|w| !w.is_empty());
+                let is_wanted = words.next() == Some("PARAM") && words.next() == Some(name);
+                let mut value = || words.next().unwrap_or_default().to_owned();
+                is_wanted.then(|| Param {
+                    name: name.to_owned(),
+                    value: value(),
+                    imaginary: value(),
+                })
+            })
+        })
+    }
+
     /// PARAM,WTMASS: the factor from the deck's mass data to mass (1 when absent). The grid point weight
     /// generator prints before it is applied.
     #[must_use]
     pub fn weight_to_mass(&self) -> f64 {
-        self.params.get("WTMASS").and_then(Param::as_real).unwrap_or(1.0)
+        self.param("WTMASS")
+            .as_ref()
+            .and_then(Param::as_real)
+            .unwrap_or(1.0)
     }
 
     /// Names of uninterpreted cards with their counts, for reports of what was not understood.

@@ -1,6 +1,6 @@
 //! What a results file must have, and whether what it has is whole.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::error::{Error, Severity};
 use crate::remarks::Remarks;
@@ -80,15 +80,17 @@ pub(super) fn anything(results: &ModalResults, evidence: &Evidence) -> Result<()
 /// Remarks on vectors that are shorter than their neighbours, missing, or at odds with the table.
 pub(super) fn complete(results: &ModalResults, remarks: &mut Remarks) {
     row_counts(results, remarks);
+    let mut of_subcase: HashMap<Option<u32>, BTreeSet<u32>> = HashMap::new();
+    for v in &results.eigenvectors {
+        of_subcase.entry(v.subcase).or_default().insert(v.mode);
+    }
+    let of_all: BTreeSet<u32> = results.eigenvectors.iter().map(|v| v.mode).collect();
+    let none = BTreeSet::new();
     for table in &results.eigenvalues {
-        let of_table =
-            |v: &&crate::results::Eigenvector| v.subcase == table.subcase || table.subcase.is_none();
-        let printed: std::collections::BTreeSet<u32> = results
-            .eigenvectors
-            .iter()
-            .filter(of_table)
-            .map(|v| v.mode)
-            .collect();
+        let printed = match table.subcase {
+            Some(_) => of_subcase.get(&table.subcase).unwrap_or(&none),
+            None => &of_all,
+        };
         if printed.is_empty() {
             remarks.push(
                 Severity::Warning,
@@ -152,23 +154,28 @@ fn row_counts(results: &ModalResults, remarks: &mut Remarks) {
 
 /// The eigenvalue above a vector repeats the table's up to the last digit.
 fn header_against_table(results: &ModalResults, remarks: &mut Remarks) {
+    let mut of_mode: HashMap<(Option<u32>, u32), f64> = HashMap::new();
+    for table in results.eigenvalues.iter().rev() {
+        for m in &table.modes {
+            of_mode.insert((table.subcase, m.mode), m.eigenvalue);
+            of_mode.insert((None, m.mode), m.eigenvalue);
+        }
+    }
     for v in &results.eigenvectors {
         let Some(header) = v.eigenvalue else { continue };
-        let Some(row) = results.table_for(v).and_then(|t| t.mode(v.mode)) else {
-            continue;
-        };
+        let found = of_mode
+            .get(&(v.subcase, v.mode))
+            .or_else(|| of_mode.get(&(None, v.mode)));
+        let Some(&eigenvalue) = found else { continue };
         // Rigid modes are rounding noise and are exempt.
         let noise = 1e-6;
-        if (header - row.eigenvalue).abs() > 1e-5 * row.eigenvalue.abs() + noise {
+        if (header - eigenvalue).abs() > 1e-5 * eigenvalue.abs() + noise {
             remarks.push(
                 Severity::Warning,
                 &results.source,
                 v.line,
                 format!("eigenvector {}", v.mode),
-                format!(
-                    "is headed by eigenvalue {header:.6e}, but the table has {:.6e}",
-                    row.eigenvalue
-                ),
+                format!("is headed by eigenvalue {header:.6e}, but the table has {eigenvalue:.6e}"),
             );
         }
     }

@@ -70,11 +70,26 @@ impl WeightReader {
                 self.principal.push(value);
             }
             Part::MassAndCg => {
-                if let [b"X" | b"Y" | b"Z", rest @ ..] = tokens.as_slice() {
-                    let [mass, x, y, z] = numbers(rest)?;
-                    self.masses.push(mass);
-                    self.cg.push([x, y, z]);
-                }
+                let axis = match tokens.first() {
+                    Some(&b"X") => 0,
+                    Some(&b"Y") => 1,
+                    Some(&b"Z") => 2,
+                    _ => return Ok(()),
+                };
+                let rest = tokens.get(1..).unwrap_or_default();
+                // A mass tells nothing of the centre along its own axis; some programs leave that blank.
+                let [mass, cg @ ..] = if rest.len() == 3 {
+                    let [mass, a, b] = numbers(rest)?;
+                    match axis {
+                        0 => [mass, 0.0, a, b],
+                        1 => [mass, a, 0.0, b],
+                        _ => [mass, a, b, 0.0],
+                    }
+                } else {
+                    numbers(rest)?
+                };
+                self.masses.push(mass);
+                self.cg.push(cg);
             }
             _ => {}
         }

@@ -7,9 +7,13 @@
     reason = "helpers of tests"
 )]
 
+mod any_deck;
 mod damage;
+mod deck_grammar;
 mod decks;
 mod f06_fixtures;
 mod f06_pages;
+mod frames;
+mod numbers;
 mod round_trip;
 mod third_party;
