@@ -1,4 +1,37 @@
 //! Flight dynamics of flexible high-aspect-ratio aircraft: the facade and the case file.
+//!
+//! # The problem
+//! A Nastran deck with its SOL 103 results, AVL geometry and output, perhaps lift slopes and derivatives of higher
+//! fidelity: make of them one trimmed, coupled, non-linear model of the flexible aircraft, and answer what is asked of it.
+//!
+//! # The chain
+//! [`Inputs::read`] reads a case file and all that it names. [`Model::build`] makes the model of one of its variants:
+//! modal basis ([`modal`]), strips and their lift slopes ([`strip`]), derivatives about the centre of gravity and
+//! the coupled aircraft ([`flight`]). [`analysis`] trims, linearises, lists modes, and simulates it. The stages are
+//! crates of their own, re-exported here under their short names.
+//!
+//! [`neutral`] takes models from other tools instead of files of Nastran and AVL.
+//!
+//! # Limits
+//! Those of the stages: strip theory with incompressible lags, linear coefficients, small deformation. The case file
+//! describes one flight point.
+//!
+//! # Example
+//! The shipped F25-like surrogate (an invented aircraft), trimmed with AVL data:
+//!
+//! ```
+//! use albatross::{Inputs, Model, analysis};
+//! # let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/f25-like/case.toml");
+//! # /*
+//! let case = "fixtures/f25-like/case.toml";
+//! # */
+//! let inputs = Inputs::read(case.as_ref())?;
+//! let model = Model::build(&inputs, &inputs.case.variant(None)?)?;
+//! let level = analysis::trimmed(&model)?;
+//! assert_eq!(format!("{:.2}", level.trim.alpha_rad.to_degrees()), "1.33");
+//! assert_eq!(level.system.states.len(), 444);
+//! # Ok::<(), albatross::Error>(())
+//! ```
 
 pub mod analysis;
 pub mod case;

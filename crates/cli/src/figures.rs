@@ -43,14 +43,27 @@ pub(crate) fn history(name: &str, history: &TimeHistory) -> Result<String, Repor
     Ok(plot.render()?.markup)
 }
 
-/// Magnitude and phase of every output.
-pub(crate) fn bode(response: &Response) -> Result<String, Box<dyn std::error::Error>> {
-    let input = response.inputs.first().map_or("", |s| s.name.as_str());
+/// Unit of a response, output over input.
+fn ratio(output: &str, input: &str) -> String {
+    let output = if output == "-" { "1" } else { output };
+    if output == input {
+        "-".into()
+    } else {
+        format!("({})/{input}", output.replace("s2", "s^{2}"))
+    }
+}
+
+/// Magnitude and phase of every output, one curve named after the variant.
+pub(crate) fn bode(variant: &str, response: &Response) -> Result<String, Box<dyn std::error::Error>> {
+    let (input, per) = response
+        .inputs
+        .first()
+        .map_or(("", "-"), |s| (s.name.as_str(), s.unit.as_str()));
     let mut plot = BodePlot::new(format!("Response to {input}"), Axis::log("Frequency", "rad/s"));
     for output in &response.outputs {
         let channel = response.get(&output.name, input)?;
         let curve = BodeCurve::new(
-            &output.name,
+            variant,
             Style::model(0),
             response.omega_rad_s.clone(),
             channel.magnitude_db(),
@@ -58,7 +71,7 @@ pub(crate) fn bode(response: &Response) -> Result<String, Box<dyn std::error::Er
         );
         plot = plot.with(
             BodeChannel::new(&output.name)
-                .with_reference(format!("({})/rad", output.unit))
+                .with_reference(ratio(&output.unit, per))
                 .with(curve),
         );
     }

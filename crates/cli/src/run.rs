@@ -76,7 +76,10 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         let response = case::response(&inputs, &trimmed, None, None)?;
         write(&out.join("bode.json"), &pretty(&case::bode_json(&response)?)?)?;
         write_table(out, "bode", &case::bode_table(&response)?)?;
-        write(&out.join("bode.svg"), &figures::bode(&response)?)
+        write(
+            &out.join("bode.svg"),
+            &figures::bode(&model.variant.name, &response)?,
+        )
     })?;
     progress.stage("simulations", || simulations(out, &inputs, &trimmed))?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;

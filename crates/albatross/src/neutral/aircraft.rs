@@ -247,7 +247,15 @@ impl NeutralAircraft {
         let rigid_shapes = StripShapes::rigid_body(&strips, DihedralForm::Paper, self.x_cg, 0.0);
         let rigid_rows = strip_forces(&strips, &rigid_shapes, &shapes, &theory, Split::ApparentMass)
             .map_err(strip_error)?;
-        let control_incidence = Mat::from_fn(n, 1, |j, _| s.dcl_dde[j] / s.cl_alpha[j]);
+        // A strip without lift slope has no incidence worth of a control.
+        let worth = |j: usize| {
+            if s.cl_alpha[j] == 0.0 {
+                0.0
+            } else {
+                s.dcl_dde[j] / s.cl_alpha[j]
+            }
+        };
+        let control_incidence = Mat::from_fn(n, 1, |j, _| worth(j));
         let structure = Structure::modal(&m.mu, &m.omega, &m.xi).map_err(strip_error)?;
         let model = AeroelasticModel::try_new(
             structure,

@@ -220,6 +220,63 @@ fn val_strip_sums_against_rigid_derivatives() {
     );
 }
 
+/// Static aeroelastic derivatives, the modes following at once, against those of the reference's vortex lattice with 50
+/// modes (fixtures/f25-like/reference/derivatives_reference.json): strips carry no induced load, so a few percent.
+#[test]
+fn val_static_aeroelastic_derivatives() {
+    let inputs = inputs();
+    let model = model(&inputs, "corrected");
+    let (_, trim) = model.trim().unwrap();
+    let part = model.aircraft.elastic.as_ref().unwrap();
+    let flow = albatross::strip::Flow {
+        rho: trim.density,
+        speed: trim.speed(),
+    };
+    let stiffness = part.model.static_stiffness(flow);
+    let (area, chord) = (model.aircraft.reference.area, model.aircraft.reference.chord);
+    let pressure = trim.dynamic_pressure;
+    let increments = |load: &dyn Fn(usize) -> f64| -> (f64, f64) {
+        let force: Vec<f64> = (0..part.model.n_modes())
+            .map(|k| pressure * area * chord * load(k))
+            .collect();
+        let eta = albatross::numerics::solve::solve_vec(stiffness.as_ref(), &force).unwrap();
+        let row = |i: usize| -> f64 {
+            let q = part.rigid_rows.eta_eta();
+            2.0 * pressure * (0..eta.len()).map(|k| q[(i, k)] * eta[k]).sum::<f64>()
+        };
+        (-row(2) / (pressure * area), row(4) / (pressure * area * chord))
+    };
+    let rigid = &model.aircraft.rigid;
+    let reference =
+        std::fs::read_to_string(case_file().with_file_name("reference/derivatives_reference.json")).unwrap();
+    let reference: serde_json::Value = serde_json::from_str(&reference).unwrap();
+    let alpha = increments(&|k| part.q_x[(k, 0)]);
+    let rate = increments(&|k| part.q_x[(k, 3)]);
+    let elevator = increments(&|k| part.q_u[(k, 2)]);
+    for (name, (lift, pitch), (rigid_lift, rigid_pitch)) in [
+        ("alpha", alpha, (rigid.lift.alpha, rigid.pitch.alpha)),
+        ("q", rate, (rigid.lift.q_hat, rigid.pitch.q_hat)),
+        ("de", elevator, (rigid.lift.controls[2], rigid.pitch.controls[2])),
+    ] {
+        let expected = |key: &str| reference["static_aeroelastic"][name][key].as_f64().unwrap();
+        println!(
+            "{name}: CL {:.4} ({:.4}) Cm {:.4} ({:.4})",
+            rigid_lift + lift,
+            expected("flex_CL"),
+            rigid_pitch + pitch,
+            expected("flex_Cm")
+        );
+        assert!(
+            ((rigid_lift + lift) / expected("flex_CL") - 1.0).abs() < 0.1,
+            "{name} lift"
+        );
+        assert!(
+            ((rigid_pitch + pitch) / expected("flex_Cm") - 1.0).abs() < 0.1,
+            "{name} pitch"
+        );
+    }
+}
+
 /// With the engines at their place the thrust lifts the nose (they hang below the centre of gravity): the elevator goes
 /// down by the moment that it must balance.
 #[test]

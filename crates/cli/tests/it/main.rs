@@ -9,7 +9,10 @@ fn fixtures() -> PathBuf {
 }
 
 fn albatross(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_albatross")).args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_albatross"))
+        .args(arguments)
+        .output()
+        .unwrap()
 }
 
 fn case() -> String {
@@ -18,7 +21,11 @@ fn case() -> String {
 
 fn json(arguments: &[&str]) -> Value {
     let output = albatross(arguments);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -47,7 +54,12 @@ fn replace(path: &Path, from: &str, to: &str) {
 /// Standard error of a command that must fail.
 fn failure(arguments: &[&str]) -> String {
     let output = albatross(arguments);
-    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stdout));
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "{}",
+        String::from_utf8_lossy(&output.stdout)
+    );
     assert!(output.stdout.is_empty(), "a failing command prints no result");
     String::from_utf8(output.stderr).unwrap()
 }
@@ -60,7 +72,13 @@ fn val_every_stage_prints_json_and_a_table() {
     assert!((trim["mass"].as_f64().unwrap() - 81018.49).abs() < 1e-3);
     let modes = json(&["modes", &case, "--json"]);
     assert_eq!(modes["modes"].as_array().unwrap().len(), 20);
-    assert_eq!(json(&["strips", &case, "--json"])["strips"].as_array().unwrap().len(), 196);
+    assert_eq!(
+        json(&["strips", &case, "--json"])["strips"]
+            .as_array()
+            .unwrap()
+            .len(),
+        196
+    );
     let system = json(&["linearize", &case, "--json", "--variant", "corrected"]);
     assert_eq!(system["a"].as_array().unwrap().len(), 444);
     let bode = json(&["bode", &case, "--json", "--omega", "1.0,20.0"]);
@@ -77,16 +95,34 @@ fn val_run_writes_every_result() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("results");
     let case = case();
-    let output = albatross(&["run", &case, "--out", out.to_str().unwrap(), "--variant", "corrected"]);
+    let output = albatross(&[
+        "run",
+        &case,
+        "--out",
+        out.to_str().unwrap(),
+        "--variant",
+        "corrected",
+    ]);
     let progress = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{progress}");
-    assert_eq!(progress.lines().filter(|l| l.starts_with('[')).count(), 7, "{progress}");
-    for name in ["trim.json", "state_space.json", "modes_table.json", "bode.svg", "doublet_3Hz.csv", "doublet_3Hz.svg"] {
+    assert_eq!(
+        progress.lines().filter(|l| l.starts_with('[')).count(),
+        7,
+        "{progress}"
+    );
+    for name in [
+        "trim.json",
+        "state_space.json",
+        "modes_table.json",
+        "bode.svg",
+        "doublet_3Hz.csv",
+        "doublet_3Hz.svg",
+    ] {
         assert!(std::fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");
     }
-    let leftovers = std::fs::read_dir(&out).unwrap().filter(|e| {
-        e.as_ref().unwrap().file_name().to_string_lossy().starts_with('.')
-    });
+    let leftovers = std::fs::read_dir(&out)
+        .unwrap()
+        .filter(|e| e.as_ref().unwrap().file_name().to_string_lossy().starts_with('.'));
     assert_eq!(leftovers.count(), 0, "no temporary file is left");
     // A time history read back: the sample count of 5 s at 1 kHz.
     let csv = std::fs::read_to_string(out.join("doublet_3Hz.csv")).unwrap();
@@ -95,9 +131,15 @@ fn val_run_writes_every_result() {
 
 #[test]
 fn val_neutral_models() {
-    let aircraft = json(&["aircraft", fixtures().join("oracle/aircraft_small.json").to_str().unwrap()]);
+    let aircraft = json(&[
+        "aircraft",
+        fixtures().join("oracle/aircraft_small.json").to_str().unwrap(),
+    ]);
     assert_eq!(aircraft["n_states"]["unsteady"], 64);
-    let wing = json(&["wing", fixtures().join("oracle/goland_wing.json").to_str().unwrap()]);
+    let wing = json(&[
+        "wing",
+        fixtures().join("oracle/goland_wing.json").to_str().unwrap(),
+    ]);
     assert!((wing["exact"]["V"].as_f64().unwrap() - 136.95382144326476).abs() < 1e-4);
 }
 
@@ -118,18 +160,30 @@ fn val_bad_input_is_refused_with_place_and_cure() {
     };
 
     // A wrong number in the deck.
-    replace(&at("f25.bdf"), "GRID        1003        17.37104     2.9", "GRID        1003        17.3x104     2.9");
+    replace(
+        &at("f25.bdf"),
+        "GRID        1003        17.37104     2.9",
+        "GRID        1003        17.3x104     2.9",
+    );
     expect(&run(), &["f25.bdf", "GRID", "17.3x104"]);
     original("f25.bdf");
 
     // A grid that elements need is missing.
-    replace(&at("f25.bdf"), "GRID        1003        17.37104     2.9-1.06907\n", "");
+    replace(
+        &at("f25.bdf"),
+        "GRID        1003        17.37104     2.9-1.06907\n",
+        "",
+    );
     expect(&run(), &["1003"]);
     original("f25.bdf");
 
     // Results without eigenvectors.
     let text = std::fs::read_to_string(at("f25.f06")).unwrap();
-    std::fs::write(at("f25.f06"), &text[..text.find("E I G E N V E C T O R").unwrap()]).unwrap();
+    std::fs::write(
+        at("f25.f06"),
+        &text[..text.find("E I G E N V E C T O R").unwrap()],
+    )
+    .unwrap();
     expect(&run(), &["f25.f06", "DISPLACEMENT"]);
 
     // Truncated within a vector.
@@ -160,7 +214,10 @@ fn val_bad_input_is_refused_with_place_and_cure() {
 
     // An unknown variant.
     let message = failure(&["trim", &case, "--variant", "cfd"]);
-    assert!(message.contains("`cfd`") && message.contains("corrected_lagged"), "{message}");
+    assert!(
+        message.contains("`cfd`") && message.contains("corrected_lagged"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -169,12 +226,18 @@ fn val_bad_neutral_models_are_refused() {
     let file = directory.path().join("wing.json");
     std::fs::write(&file, "{ \"y\": [1.0], ").unwrap();
     assert!(failure(&["wing", file.to_str().unwrap()]).contains("wing.json:1:"));
-    std::fs::write(&file, "{\"y\":[1.0],\"dy\":[1.0],\"c\":[-1.0],\"x_ac\":[0.0],\"x_lra\":[0.0],\"cl_alpha\":[6.0],\
-        \"phi\":[[1.0]],\"gamma\":[[0.0]],\"mu\":[1.0],\"omega\":[1.0],\"xi\":[0.0],\"rho\":1.0}")
+    std::fs::write(
+        &file,
+        "{\"y\":[1.0],\"dy\":[1.0],\"c\":[-1.0],\"x_ac\":[0.0],\"x_lra\":[0.0],\"cl_alpha\":[6.0],\
+        \"phi\":[[1.0]],\"gamma\":[[0.0]],\"mu\":[1.0],\"omega\":[1.0],\"xi\":[0.0],\"rho\":1.0}",
+    )
     .unwrap();
     assert!(failure(&["wing", file.to_str().unwrap()]).contains("chord is -1"));
-    std::fs::write(&file, "{\"y\":[1.0],\"dy\":[1.0,2.0],\"c\":[1.0],\"x_ac\":[0.0],\"x_lra\":[0.0],\"cl_alpha\":[6.0],\
-        \"phi\":[[1.0]],\"gamma\":[[0.0]],\"mu\":[1.0],\"omega\":[1.0],\"xi\":[0.0],\"rho\":1.0}")
+    std::fs::write(
+        &file,
+        "{\"y\":[1.0],\"dy\":[1.0,2.0],\"c\":[1.0],\"x_ac\":[0.0],\"x_lra\":[0.0],\"cl_alpha\":[6.0],\
+        \"phi\":[[1.0]],\"gamma\":[[0.0]],\"mu\":[1.0],\"omega\":[1.0],\"xi\":[0.0],\"rho\":1.0}",
+    )
     .unwrap();
     assert!(failure(&["wing", file.to_str().unwrap()]).contains("`dy`"));
 }
