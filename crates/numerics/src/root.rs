@@ -106,6 +106,15 @@ pub fn bisect(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f64
             at_high,
         });
     }
+    for (x, residual) in [(low, at_low), (high, at_high)] {
+        if residual == 0.0 {
+            return Ok(ScalarRoot {
+                x,
+                residual,
+                evaluations: 2,
+            });
+        }
+    }
     let (mut a, mut b, mut evaluations) = (low, high, 2);
     loop {
         let x = 0.5 * (a + b);
@@ -119,11 +128,10 @@ pub fn bisect(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f64
                 evaluations,
             });
         }
-        if (residual > 0.0) == (at_high > 0.0) && at_high != 0.0 || (at_low != 0.0 && residual * at_low < 0.0)
-        {
-            b = x;
-        } else {
+        if (residual > 0.0) == (at_low > 0.0) {
             a = x;
+        } else {
+            b = x;
         }
     }
 }
@@ -172,52 +180,62 @@ pub fn newton(
     start: &[f64],
     options: NewtonOptions,
 ) -> Result<SystemRoot> {
-    const SUFFICIENT: f64 = 1e-4;
     const LEAST_DAMPING: f64 = 1e-10;
-    let n = start.len();
-    let (mut x, mut r) = (start.to_vec(), vec![0.0; n]);
+    let (mut x, mut r) = (start.to_vec(), vec![0.0; start.len()]);
     f(&x, &mut r);
     for iteration in 0..=options.iterations {
-        let converged = largest(&r).1 <= options.tolerance;
-        if r.iter().any(|v| !v.is_finite()) || (!converged && iteration == options.iterations) {
+        let (_, residual) = largest(&r);
+        let finite = r.iter().all(|v| v.is_finite());
+        let converged = finite && residual <= options.tolerance;
+        if !finite || (!converged && iteration == options.iterations) {
             return Err(stopped(&r, iteration));
         }
-        if converged && (iteration > 0 || largest(&r).1 == 0.0) {
-            return Ok(SystemRoot {
-                residual: largest(&r).1,
-                x,
-                iterations: iteration,
-            });
-        }
-        let step = solve_vec(jacobian(&x).as_ref(), &r)?;
-        let (mut damping, before) = (1.0, norm(&r));
-        let (mut trial, mut trial_r) = (vec![0.0; n], vec![0.0; n]);
-        loop {
-            for ((t, x), s) in trial.iter_mut().zip(&x).zip(&step) {
-                *t = x - damping * s;
-            }
-            f(&trial, &mut trial_r);
-            if norm(&trial_r) <= (1.0 - SUFFICIENT * damping) * before {
-                (x, r) = (trial, trial_r);
-                break;
-            }
-            if converged {
-                break;
-            }
-            damping *= 0.5;
-            if damping < LEAST_DAMPING {
-                return Err(stopped(&r, iteration + 1));
-            }
-        }
+        let newton_step = solve_vec(jacobian(&x).as_ref(), &r);
         if converged {
+            if let Some((x, r)) = newton_step
+                .ok()
+                .and_then(|step| descend(&mut f, &x, &step, &r, 1.0))
+            {
+                return Ok(SystemRoot {
+                    residual: largest(&r).1,
+                    x,
+                    iterations: iteration + 1,
+                });
+            }
             return Ok(SystemRoot {
-                residual: largest(&r).1,
+                residual,
                 x,
                 iterations: iteration + 1,
             });
         }
+        let lower = descend(&mut f, &x, &newton_step?, &r, LEAST_DAMPING);
+        (x, r) = lower.ok_or_else(|| stopped(&r, iteration + 1))?;
     }
     Err(stopped(&r, options.iterations))
+}
+
+/// x - s step and its residuals for the first s = 1, 1/2, ... down to `least` that lowers their norm enough.
+fn descend(
+    f: &mut impl FnMut(&[f64], &mut [f64]),
+    x: &[f64],
+    step: &[f64],
+    r: &[f64],
+    least: f64,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    const SUFFICIENT: f64 = 1e-4;
+    let (mut trial, mut trial_r) = (vec![0.0; x.len()], vec![0.0; r.len()]);
+    let mut damping = 1.0;
+    while damping >= least {
+        for ((t, x), s) in trial.iter_mut().zip(x).zip(step) {
+            *t = x - damping * s;
+        }
+        f(&trial, &mut trial_r);
+        if norm(&trial_r) <= (1.0 - SUFFICIENT * damping) * norm(r) {
+            return Some((trial, trial_r));
+        }
+        damping *= 0.5;
+    }
+    None
 }
 
 /// Jacobian of `f` (`n` residuals) at `x` by central differences with steps `h_j` per unknown.
