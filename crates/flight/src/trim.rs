@@ -268,7 +268,7 @@ const EQUATIONS: [&str; 3] = [
 const MOST_ITERATIONS: usize = 50;
 /// Residuals beside the accelerations that the air can give: far above rounding, far below any use.
 const TOLERANCE: f64 = 1e-10;
-/// Step of the differences: angles in rad, the thrust in weights.
+/// Step of the differences: angles in rad, the thrust in forces of weight and air.
 const STEP: f64 = 1e-6;
 /// A derivative of a scaled residual below this is rounding.
 const NO_EFFECT: f64 = 1e-8;
@@ -282,6 +282,7 @@ fn newton(
     let scales = residual_scales(equations, point);
     let n_controls = equations.aircraft().controls.len();
     let weight = equations.aircraft().mass * equations.aircraft().gravity;
+    let force = dynamic_pressure(point) * equations.aircraft().reference.area;
     let mut work = equations.workspace::<f64>();
     let mut xdot = vec![0.0; equations.layout().n_states()];
     let mut residual = |z: &Unknowns| -> [f64; 3] {
@@ -297,7 +298,7 @@ fn newton(
         iterations: 0,
         index: control,
     };
-    let steps = [STEP, STEP, STEP * weight];
+    let steps = [STEP, STEP, STEP * (weight + force)];
     let mut previous = f64::INFINITY;
     let mut last = [f64::INFINITY; 3];
     let mut made = 0;
