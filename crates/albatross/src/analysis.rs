@@ -7,12 +7,13 @@ use crate::{Error, case};
 use albatross_flight::lag_form::diagonal_lag_form;
 use albatross_flight::signal::Signal;
 use albatross_flight::{
-    EquationsOfMotion, Fidelity, Manoeuvre, ModelOptions, TimeHistory, Trim, linearize, simulate, trim,
+    Attitude, EquationsOfMotion, Fidelity, Manoeuvre, ModelOptions, TimeHistory, Trim, linearize, simulate,
+    trim,
 };
 use albatross_lti::modes::{Mode, mode_table};
 use albatross_lti::track::{TrackOptions, Tracker};
 use albatross_lti::{FrequencySolver, Response, StateSpace};
-use albatross_modal::{Component, Symmetry, describe, energy_shares};
+use albatross_modal::{Component, ModalBasis, Symmetry, describe, energy_shares};
 use albatross_numerics::{C64, Mat};
 use serde::Serialize;
 
@@ -42,29 +43,24 @@ pub struct StructuralMode {
 /// The structural modes of a model with their kinetic-energy shares by load reference axis.
 ///
 /// # Errors
-/// [`Error::Modal`] if an axis names a grid that the basis lacks.
+/// [`Error::UnknownName`] for a range of grids that cannot be read.
 pub fn structural_modes(inputs: &Inputs, model: &Model) -> Result<Vec<StructuralMode>, Error> {
-    let components = inputs
-        .case
-        .structure
-        .lra
-        .iter()
-        .map(|(name, entries)| {
-            let grids = case::grid_list(entries)?.into_iter().map(Into::into).collect();
-            Ok(Component {
-                name: name.clone(),
-                grids,
-            })
-        })
-        .collect::<Result<Vec<_>, Error>>()?;
+    Ok(modes_of_basis(
+        &model.basis,
+        &model.damping,
+        &inputs.components()?,
+    ))
+}
+
+/// The modes of a basis with their kinetic-energy shares by component; modes beyond the list of damping ratios have none.
+pub fn modes_of_basis(basis: &ModalBasis, damping: &[f64], components: &[Component]) -> Vec<StructuralMode> {
     // Without a mass matrix there are no energies to share.
-    let shares = energy_shares(&model.basis, &components).unwrap_or_default();
-    let coupling = match &model.basis.mean_axes {
+    let shares = energy_shares(basis, components).unwrap_or_default();
+    let coupling = match &basis.mean_axes {
         albatross_modal::MeanAxes::Checked(check) => Some(check),
         albatross_modal::MeanAxes::Refused { .. } => None,
     };
-    Ok(model
-        .basis
+    basis
         .modes
         .iter()
         .enumerate()
@@ -74,14 +70,14 @@ pub fn structural_modes(inputs: &Inputs, model: &Model) -> Result<Vec<Structural
             frequency_hz: mode.frequency_hz,
             omega_rad_s: mode.omega_rad_s,
             generalized_mass: mode.generalized_mass,
-            damping_ratio: model.damping.get(k).copied().unwrap_or(0.0),
+            damping_ratio: damping.get(k).copied().unwrap_or(0.0),
             symmetry: mode.symmetry,
             rigid_coupling: coupling
                 .and_then(|c| c.coupling.get(k))
                 .map(|row| row.iter().fold(0.0, |m: f64, v| m.max(v.abs()))),
             description: shares.get(k).map_or_else(String::new, |s| describe(s, 0.05)),
         })
-        .collect())
+        .collect()
 }
 
 /// A trimmed model with its linearisation.
@@ -95,7 +91,7 @@ pub struct Trimmed {
     pub system: StateSpace,
 }
 
-/// Trims and linearises a model.
+/// Trims a model and linearises it, attitude in Euler angles.
 ///
 /// # Errors
 /// As [`albatross_flight::trim`] and [`linearize`].
@@ -108,10 +104,25 @@ pub fn trimmed(model: &Model) -> Result<Trimmed, Error> {
 /// # Errors
 /// As [`trimmed`].
 pub fn with_fidelity(model: &Model, fidelity: Fidelity) -> Result<Trimmed, Error> {
-    let options = ModelOptions {
-        fidelity,
-        ..model.options
-    };
+    with_options(
+        model,
+        ModelOptions {
+            fidelity,
+            attitude: Attitude::Euler,
+            ..model.options
+        },
+    )
+}
+
+/// As [`trimmed`], with attitude kept as the case asks for simulations.
+///
+/// # Errors
+/// As [`trimmed`].
+pub fn trimmed_for_simulation(model: &Model) -> Result<Trimmed, Error> {
+    with_options(model, model.options)
+}
+
+fn with_options(model: &Model, options: ModelOptions) -> Result<Trimmed, Error> {
     let (equations, trim) = trim(&model.aircraft, options, &model.point)?;
     let system = linearize(&equations, &trim.state, &trim.input)?;
     Ok(Trimmed {

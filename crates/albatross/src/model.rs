@@ -1,7 +1,7 @@
 //! The model of one variant of a case: basis, strips, aircraft, trim.
 
 use crate::Error;
-use crate::case::{Damping, ModeChoice, SensorCase, ThrustLine, VariantCase};
+use crate::case::{Damping, ModeChoice, SensorCase, ThrustLine, VariantCase, grid_list};
 use crate::controls::control_loads;
 use crate::inputs::Inputs;
 use crate::strips::{StripSet, strip_set};
@@ -10,7 +10,7 @@ use albatross_flight::{
     Aircraft, ElasticPart, Engine, EquationsOfMotion, FlightPoint, ModelOptions, Sensor, SensorPoint, Trim,
     atmosphere, trim,
 };
-use albatross_modal::{BasisOptions, MassProperties, ModalBasis, Selection};
+use albatross_modal::{BasisOptions, Component, MassProperties, ModalBasis, Selection};
 use albatross_numerics::Mat;
 use albatross_strip::forces::generalized_forces;
 use albatross_strip::kernels::JONES;
@@ -77,6 +77,39 @@ impl Inputs {
     }
 }
 
+impl Inputs {
+    /// The load reference axes of the case as components, for the shares of kinetic energy.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for a range of grids that cannot be read.
+    pub fn components(&self) -> Result<Vec<Component>, Error> {
+        let axes = self.case.structure.lra.iter();
+        axes.map(|(name, entries)| {
+            Ok(Component {
+                name: name.clone(),
+                grids: grid_list(entries)?.into_iter().map(Into::into).collect(),
+            })
+        })
+        .collect()
+    }
+
+    /// Damping ratio of each mode.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] if the case lists another number of ratios.
+    pub fn damping(&self, n_modes: usize) -> Result<Vec<f64>, Error> {
+        match &self.case.structure.damping_ratio {
+            Damping::Uniform(xi) => Ok(vec![*xi; n_modes]),
+            Damping::PerMode(list) if list.len() == n_modes => Ok(list.clone()),
+            Damping::PerMode(list) => Err(Error::Mismatch {
+                what: "structure.damping_ratio".into(),
+                found: format!("{} ratios", list.len()),
+                expected: format!("one ratio for all, or {n_modes}: one for each mode"),
+            }),
+        }
+    }
+}
+
 impl Model {
     /// Builds the model of a variant.
     ///
@@ -98,7 +131,7 @@ impl Model {
                     .into(),
             expected: "PARAM,GRDPNT,0 in the deck, so that the results hold the weight generator".into(),
         })?;
-        let damping = damping(inputs, basis.modes.len())?;
+        let damping = inputs.damping(basis.modes.len())?;
         let strips = strip_set(inputs, &basis, variant)?;
         let mut notes: Vec<String> = inputs
             .notes
@@ -114,8 +147,8 @@ impl Model {
                 .control_aerodynamics
                 .unwrap_or(inputs.case.aerodynamics.control_aerodynamics),
             shape_reference: inputs.case.aerodynamics.shape_reference,
+            attitude: inputs.case.flight.attitude,
             position: true,
-            ..ModelOptions::default()
         };
         let flight = &inputs.case.flight;
         let point = FlightPoint {
@@ -148,18 +181,6 @@ impl Model {
     /// Mach number of the flight point.
     pub fn mach(&self) -> f64 {
         self.point.speed / atmosphere::standard(self.point.altitude).speed_of_sound
-    }
-}
-
-fn damping(inputs: &Inputs, n_modes: usize) -> Result<Vec<f64>, Error> {
-    match &inputs.case.structure.damping_ratio {
-        Damping::Uniform(xi) => Ok(vec![*xi; n_modes]),
-        Damping::PerMode(list) if list.len() == n_modes => Ok(list.clone()),
-        Damping::PerMode(list) => Err(Error::Mismatch {
-            what: "structure.damping_ratio".into(),
-            found: format!("{} ratios", list.len()),
-            expected: format!("one ratio for all, or {n_modes}: one for each mode"),
-        }),
     }
 }
 

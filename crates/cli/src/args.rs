@@ -16,7 +16,7 @@ pub(crate) enum Command {
     /// All stages of a case: tables, plots and time histories into a directory.
     Run(RunOptions),
     /// Structural modes: frequencies, modal masses, symmetry, where the energy is.
-    Modes(CaseOptions),
+    Modes(ModesOptions),
     /// Aerodynamic strips: geometry, lift slopes, load reference axis.
     Strips(CaseOptions),
     /// Trimmed flight.
@@ -48,6 +48,27 @@ pub(crate) struct CaseOptions {
     /// Variant of the case; the first one by default.
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
+    /// JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No notes on standard error.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ModesOptions {
+    /// Case file (TOML); or give a deck and its results.
+    pub(crate) case: Option<PathBuf>,
+    /// Nastran deck.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) deck: Option<PathBuf>,
+    /// Results of SOL 103.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) results: Option<PathBuf>,
+    /// Elastic modes wanted of --results; all by default.
+    #[arg(long, value_name = "N")]
+    pub(crate) modes: Option<usize>,
     /// JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,

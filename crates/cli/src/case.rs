@@ -1,13 +1,15 @@
 //! The stages of a case, one command each.
 
-use crate::args::{BodeOptions, CaseOptions, SimulateOptions};
+use crate::args::{BodeOptions, CaseOptions, ModesOptions, SimulateOptions};
 use crate::output::{Failure, print, print_json, remark, write};
 use crate::tables;
 use albatross::analysis::{self, Trimmed};
 use albatross::flight::{TimeHistory, Trim};
 use albatross::lti::Response;
+use albatross::modal::{BasisOptions, ModalBasis, OnViolation, Selection};
 use albatross::{Inputs, Model};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// A case read and its model built.
 pub(crate) struct Loaded {
@@ -32,22 +34,57 @@ fn load_with_notes(options: &CaseOptions) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-pub(crate) fn modes(options: &CaseOptions) -> Result<(), Failure> {
-    let Loaded { inputs, model } = load_with_notes(options)?;
-    let modes = analysis::structural_modes(&inputs, &model)?;
+pub(crate) fn modes(options: &ModesOptions) -> Result<(), Failure> {
+    let (basis, modes) = match (&options.case, &options.deck, &options.results) {
+        (Some(case), None, None) => modes_of_case(case)?,
+        (None, Some(deck), Some(results)) => modes_of_files(deck, results, options.modes)?,
+        _ => {
+            return Err(Failure::Other(
+                "give a case file, or --deck together with --results".into(),
+            ));
+        }
+    };
+    if !options.quiet {
+        for note in &basis.notes {
+            remark(&format!("note: {note}"));
+        }
+    }
     if options.json {
-        print_json(&modes_json(&model, &modes))
+        print_json(&modes_json(&basis, &modes))
     } else {
         print(&tables::modes(&modes)?.to_text())
     }
 }
 
-pub(crate) fn modes_json(model: &Model, modes: &[analysis::StructuralMode]) -> Value {
+type BasisAndModes = (ModalBasis, Vec<analysis::StructuralMode>);
+
+fn modes_of_case(case: &Path) -> Result<BasisAndModes, Failure> {
+    let inputs = Inputs::read(case)?;
+    let basis = inputs.basis()?;
+    let modes = analysis::modes_of_basis(&basis, &inputs.damping(basis.modes.len())?, &inputs.components()?);
+    Ok((basis, modes))
+}
+
+/// Modes of a deck and its results alone, without damping; elastic ones, all or as many as asked for.
+fn modes_of_files(deck: &Path, results: &Path, how_many: Option<usize>) -> Result<BasisAndModes, Failure> {
+    let (deck, _) = albatross::nastran::bdf::read_strict(deck).map_err(albatross::Error::from)?;
+    let results = albatross::nastran::f06::read(results).map_err(albatross::Error::from)?;
+    let choice = BasisOptions {
+        modes: how_many.map_or(Selection::All, Selection::FirstElastic),
+        on_violation: OnViolation::Accept,
+        ..BasisOptions::default()
+    };
+    let basis = ModalBasis::from_nastran(&deck, &results, &choice).map_err(albatross::Error::from)?;
+    let modes = analysis::modes_of_basis(&basis, &[], &[]);
+    Ok((basis, modes))
+}
+
+pub(crate) fn modes_json(basis: &ModalBasis, modes: &[analysis::StructuralMode]) -> Value {
     json!({
-        "mass": model.mass.mass,
-        "cg": model.mass.cg,
-        "inertia": model.mass.inertia,
-        "mean_axes": model.basis.mean_axes_summary(),
+        "mass": basis.mass.as_ref().map(|m| m.mass),
+        "cg": basis.mass.as_ref().map(|m| m.cg),
+        "inertia": basis.mass.as_ref().map(|m| m.inertia),
+        "mean_axes": basis.mean_axes_summary(),
         "modes": modes,
     })
 }
@@ -199,7 +236,7 @@ pub(crate) fn bode_json(response: &Response) -> Result<Value, Failure> {
 
 pub(crate) fn simulate(options: &SimulateOptions) -> Result<(), Failure> {
     let Loaded { inputs, model } = load_with_notes(&options.case)?;
-    let trimmed = analysis::trimmed(&model)?;
+    let trimmed = analysis::trimmed_for_simulation(&model)?;
     let case = match &options.manoeuvre {
         Some(name) => inputs.case.manoeuvre(name)?,
         None => inputs

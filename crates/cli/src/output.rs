@@ -86,7 +86,12 @@ pub(crate) fn error(failure: &Failure) {
     } else {
         "error"
     };
-    remark(&format!("{label}: {failure}"));
+    // Lists of a reader's remarks bring their own label.
+    let text = failure.to_string();
+    remark(&format!(
+        "{label}: {}",
+        text.strip_prefix("error: ").unwrap_or(&text)
+    ));
 }
 
 /// Makes a directory with its parents.

@@ -48,7 +48,7 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         write_table(out, "modes", &tables::modes(&modes)?)?;
         write(
             &out.join("modes.json"),
-            &pretty(&case::modes_json(&model, &modes))?,
+            &pretty(&case::modes_json(&model.basis, &modes))?,
         )?;
         Ok(modes)
     })?;
@@ -81,7 +81,9 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
             &figures::bode(&model.variant.name, &response)?,
         )
     })?;
-    progress.stage("simulations", || simulations(out, &inputs, &trimmed))?;
+    progress.stage("simulations", || {
+        simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?)
+    })?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
     summary(options, &model, &trimmed, &mode_table, modes.len())
 }

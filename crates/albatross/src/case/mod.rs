@@ -10,7 +10,7 @@ pub use manoeuvre::{ManoeuvreCase, SignalCase};
 
 use crate::Error;
 use albatross_flight::derivatives::DragLaw;
-use albatross_flight::{ControlAerodynamics, Fidelity, Method, Quantity, ShapeReference};
+use albatross_flight::{Attitude, ControlAerodynamics, Fidelity, Method, Quantity, ShapeReference};
 use albatross_numerics::interp;
 use albatross_strip::{DihedralForm, DownwashPoint, Split};
 use serde::Deserialize;
@@ -250,6 +250,9 @@ pub struct FlightCase {
     /// Gravity \[m/s²\].
     #[serde(default = "default_gravity")]
     pub gravity: f64,
+    /// How simulations keep attitude; linear analyses use Euler angles.
+    #[serde(default)]
+    pub attitude: Attitude,
 }
 
 fn default_gravity() -> f64 {

@@ -1,4 +1,5 @@
 //! Integration tests of the facade.
 
 mod f25;
+mod flight_f25;
 mod oracle;
