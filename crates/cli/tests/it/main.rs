@@ -90,6 +90,32 @@ fn val_every_stage_prints_json_and_a_table() {
     }
 }
 
+/// A deck and its results need no case: frequencies of the stick aircraft agree between the two solvers' files, and a
+/// clamped beam keeps its first mode (no mode is taken for rigid by its number).
+#[test]
+fn val_modes_of_files() {
+    let file = |name: &str| fixtures().join("nastran").join(name).display().to_string();
+    let modes = |deck: &str, results: &str| {
+        json(&[
+            "modes",
+            "--deck",
+            &file(deck),
+            "--results",
+            &file(results),
+            "--modes",
+            "4",
+            "--json",
+        ])
+    };
+    let frequency = |v: &Value, i: usize| v["modes"][i]["frequency_hz"].as_f64().unwrap();
+    let (a, b) = (modes("stick.bdf", "stick.f06"), modes("stick.bdf", "stick95.out"));
+    for i in 0..4 {
+        assert!((frequency(&a, i) / frequency(&b, i) - 1.0).abs() < 1e-5);
+    }
+    assert_eq!(modes("cant.bdf", "cant.f06")["modes"][0]["number_in_file"], 1);
+    assert!(failure(&["modes", "--deck", &file("cant.bdf")]).contains("--results"));
+}
+
 #[test]
 fn val_run_writes_every_result() {
     let directory = tempfile::tempdir().unwrap();
