@@ -307,3 +307,133 @@ impl Section {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn section(shape: SectionShape, dims: &[f64]) -> Section {
+        Section {
+            shape,
+            dims: dims.to_vec(),
+        }
+    }
+
+    /// The constants that Simcenter Nastran prints for a PBARL ROD of radius 1: 3.1416, 0.78540, 1.5708.
+    #[test]
+    fn val_round_sections() {
+        let rod = section(SectionShape::Rod, &[1.0]);
+        assert_relative_eq!(rod.area().unwrap(), PI);
+        assert_relative_eq!(rod.second_moments().unwrap().0, PI / 4.0);
+        assert_relative_eq!(rod.torsion_constant().unwrap(), PI / 2.0);
+        let by_radii = section(SectionShape::Tube, &[0.5, 0.4]);
+        let by_thickness = section(SectionShape::Tube2, &[0.5, 0.1]);
+        assert_relative_eq!(
+            by_radii.area().unwrap(),
+            by_thickness.area().unwrap(),
+            max_relative = 1e-14
+        );
+        assert_relative_eq!(by_radii.area().unwrap(), PI * 0.09, max_relative = 1e-14);
+    }
+
+    /// Sections whose bending about the horizontal axis is a rectangle minus rectangles.
+    #[test]
+    fn val_symmetric_sections_are_rectangles_minus_rectangles() {
+        let rectangle = |w: f64, h: f64| w * h.powi(3) / 12.0;
+        let whole_minus = |hole_width: f64| rectangle(0.3, 0.5) - rectangle(hole_width, 0.44);
+        for (shape, dims, hole) in [
+            (SectionShape::I, &[0.5, 0.3, 0.3, 0.02, 0.03, 0.03][..], 0.28),
+            (SectionShape::I1, &[0.28, 0.02, 0.44, 0.5], 0.28),
+            (SectionShape::Chan, &[0.3, 0.5, 0.02, 0.03], 0.28),
+            (SectionShape::Chan1, &[0.28, 0.02, 0.44, 0.5], 0.28),
+            (SectionShape::Box, &[0.3, 0.5, 0.03, 0.02], 0.26),
+            (SectionShape::Box1, &[0.3, 0.5, 0.03, 0.03, 0.015, 0.025], 0.26),
+        ] {
+            let s = section(shape, dims);
+            assert_relative_eq!(s.area().unwrap(), 0.15 - hole * 0.44, max_relative = 1e-13);
+            assert_relative_eq!(
+                s.second_moments().unwrap().0,
+                whole_minus(hole),
+                max_relative = 1e-13
+            );
+        }
+        // A Z has the same heights as the channel made of its parts.
+        let z = section(SectionShape::Z, &[0.28, 0.02, 0.44, 0.5]);
+        let expected = rectangle(0.02, 0.5) + 0.28 * (0.5_f64.powi(3) - 0.44_f64.powi(3)) / 12.0;
+        assert_relative_eq!(z.second_moments().unwrap().0, expected, max_relative = 1e-13);
+    }
+
+    /// Beer and Johnston, Mechanics of Materials, sample problem 4.2: a T of 90 x 20 over 30 x 40 mm has its centroid
+    /// 38 mm above the foot and I = 868e3 mm^4.
+    #[test]
+    fn val_tee_of_the_text_book() {
+        let tee = section(SectionShape::T, &[90.0, 60.0, 20.0, 30.0]);
+        assert_relative_eq!(tee.area().unwrap(), 3000.0);
+        assert_relative_eq!(tee.second_moments().unwrap().0, 868e3, max_relative = 1e-12);
+        let upside_down = section(SectionShape::T2, &[90.0, 60.0, 20.0, 30.0]);
+        assert_relative_eq!(
+            upside_down.second_moments().unwrap().0,
+            868e3,
+            max_relative = 1e-12
+        );
+        // On its side the moments change places.
+        let on_its_side = section(SectionShape::T1, &[90.0, 40.0, 20.0, 30.0]);
+        assert_relative_eq!(
+            on_its_side.second_moments().unwrap().1,
+            868e3,
+            max_relative = 1e-12
+        );
+    }
+
+    #[test]
+    fn val_remaining_areas() {
+        for (shape, dims, area) in [
+            (
+                SectionShape::L,
+                &[0.3, 0.5, 0.03, 0.02][..],
+                0.3 * 0.03 + 0.47 * 0.02,
+            ),
+            (SectionShape::H, &[0.3, 0.04, 0.5, 0.03], 0.04 * 0.5 + 0.3 * 0.03),
+            (
+                SectionShape::Cross,
+                &[0.3, 0.04, 0.5, 0.03],
+                0.04 * 0.5 + 0.3 * 0.03,
+            ),
+            (
+                SectionShape::Chan2,
+                &[0.02, 0.03, 0.5, 0.3],
+                2.0 * 0.02 * 0.5 + 0.03 * 0.26,
+            ),
+            (SectionShape::Hexa, &[0.1, 0.3, 0.2], 0.2 * 0.2),
+        ] {
+            assert_relative_eq!(section(shape, dims).area().unwrap(), area, max_relative = 1e-13);
+        }
+        for shape in [SectionShape::Hat, SectionShape::Hat1, SectionShape::Dbox] {
+            assert_eq!(section(shape, &vec![0.1; shape.dimension_count()]).area(), None);
+        }
+        // Dimensions of another shape.
+        assert_eq!(section(SectionShape::I, &[1.0]).area(), None);
+    }
+
+    /// Timoshenko and Goodier, Theory of Elasticity, table of k1: J = k1 a^3 b with k1 0.1406 for a square, 0.229 for
+    /// 2 : 1 and 0.312 for 10 : 1.
+    #[test]
+    fn val_torsion_of_rectangles() {
+        for (ratio, k1) in [(1.0, 0.1406), (2.0, 0.229), (10.0, 0.312)] {
+            for dims in [[ratio, 1.0], [1.0, ratio]] {
+                let j = section(SectionShape::Bar, &dims).torsion_constant().unwrap();
+                assert_relative_eq!(j, k1 * ratio, max_relative = 5e-3);
+            }
+        }
+    }
+
+    #[test]
+    fn names_and_counts_agree() {
+        for (name, shape, count) in SectionShape::TABLE {
+            assert_eq!(SectionShape::from_name(name), Some(shape));
+            assert_eq!((shape.name(), shape.dimension_count()), (name, count));
+        }
+    }
+}
