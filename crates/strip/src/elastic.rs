@@ -12,7 +12,7 @@ use crate::forces::{Downwash, GeneralizedForces, Split, downwash, generalized_fo
 use crate::kernels::Lag;
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};
-use crate::{Error, ensure_finite};
+use crate::{Error, ensure_finite, ensure_finite_entries, ensure_shape};
 use albatross_numerics::{Mat, solve};
 
 /// Structural mass, damping and stiffness in the shapes' coordinates, n x n, symmetric.
@@ -77,6 +77,23 @@ impl Structure {
         })
     }
 
+    /// Checks that all matrices are square, of one size, and finite.
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::NotFinite`].
+    pub fn check(&self) -> Result<(), Error> {
+        let n = self.n();
+        for (what, matrix) in [
+            ("the mass matrix", &self.mass),
+            ("the damping matrix", &self.damping),
+            ("the stiffness matrix", &self.stiffness),
+        ] {
+            ensure_shape(what, matrix, (n, n))?;
+            ensure_finite_entries(what, matrix)?;
+        }
+        Ok(())
+    }
+
     /// Number of coordinates.
     pub fn n(&self) -> usize {
         self.mass.nrows()
@@ -113,8 +130,9 @@ impl AeroelasticModel {
     /// Assembles the matrices.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the structure has another number of coordinates than there are shapes; what
-    /// [`generalized_forces`] returns; [`Error::Empty`] without strips or shapes.
+    /// [`Error::Shape`] if the structure has another number of coordinates than there are shapes, [`Error::NotFinite`]
+    /// for a NaN or infinity in it; what [`generalized_forces`] returns; [`Error::Empty`] without strips or shapes;
+    /// [`Error::BadLag`] for a lag that does not decay.
     pub fn try_new(
         structure: Structure,
         strips: Vec<Strip>,
@@ -135,6 +153,10 @@ impl AeroelasticModel {
                 expected: (shapes.n_shapes(), shapes.n_shapes()),
                 found: (structure.n(), structure.n()),
             });
+        }
+        structure.check()?;
+        for (index, lag) in lags.iter().enumerate() {
+            lag.check(index)?;
         }
         let forces = generalized_forces(&strips, &shapes, &shapes, theory, split)?;
         let downwash = downwash(&strips, &shapes, theory)?;
@@ -192,7 +214,8 @@ pub struct PiMatrices {
 /// `q_x` and `q_u` are the quasi-steady matrices of [`crate::quasi_steady`], shapes x variables.
 ///
 /// # Errors
-/// [`Error::Numerics`] if `mu - rho Q_etadd` is singular.
+/// [`Error::Numerics`] if `mu - rho Q_etadd` is singular or `q_x` or `q_u` have another number of rows than there are
+/// modes, [`Error::BadFlow`] for a density or speed that is negative or not finite.
 pub fn pi_matrices(
     model: &AeroelasticModel,
     flow: Flow,
@@ -200,6 +223,8 @@ pub fn pi_matrices(
     q_x: &Mat<f64>,
     q_u: &Mat<f64>,
 ) -> Result<PiMatrices, Error> {
+    ensure_finite("density", flow.rho)?;
+    ensure_finite("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let mass = model.mass(rho);
     let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
@@ -264,6 +289,101 @@ pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Er
         a[(2 * n + j, 2 * n + j)] += rate;
     }
     Ok(a)
+}
+
+/// A smaller state matrix with the same eigenvalues but for pure lag roots.
+///
+/// Lag states of strips of one chord decay at one rate `r`, and act on the modes only by their sum
+/// `z_i = sum_j Q_lambda,j lambda_i,j`, which obeys `z_i' = r_i z_i + A_i sum_j Q_lambda,j w_j'`. Where more strips
+/// share a chord than there are modes, the `n` sums of each lag replace the strips' states.
+///
+/// States: `eta`, `etad`, then lag by lag the sums or strips of one chord after another.
+///
+/// # Errors
+/// As [`state_matrix`].
+pub fn compact_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    ensure_finite("density", flow.rho)?;
+    ensure_finite("speed", flow.speed)?;
+    Ok(assemble_compact(model, flow)?)
+}
+
+/// [`compact_state_matrix`] of a flow known to be usable.
+pub(crate) fn assemble_compact(
+    model: &AeroelasticModel,
+    flow: Flow,
+) -> Result<Mat<f64>, albatross_numerics::Error> {
+    let Flow { rho, speed } = flow;
+    let n = model.n_modes();
+    let lift = &model.forces.eta_lambda_c;
+    // Strips' downwash to lag states, lag states to modes: their product is Q_lambda.
+    let groups = strips_of_one_chord(&model.strips);
+    let n_lag: usize = groups.iter().map(|g| g.len().min(n)).sum();
+    let (mut gather, mut emit) = (Mat::zeros(n_lag, model.strips.len()), Mat::zeros(n, n_lag));
+    let mut chord_of_state = Vec::with_capacity(n_lag);
+    for group in &groups {
+        let first = chord_of_state.len();
+        for (i, &j) in group.iter().enumerate() {
+            if group.len() > n {
+                (0..n).for_each(|k| gather[(first + k, j)] = lift[(k, j)]);
+            } else {
+                gather[(first + i, j)] = 1.0;
+                (0..n).for_each(|k| emit[(k, first + i)] = lift[(k, j)]);
+            }
+        }
+        if group.len() > n {
+            (0..n).for_each(|k| emit[(k, first + k)] = 1.0);
+        }
+        let chord = group.first().map_or(f64::NAN, |&j| model.strips[j].chord);
+        chord_of_state.extend(std::iter::repeat_n(chord, group.len().min(n)));
+    }
+
+    let mass = model.mass(rho);
+    let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
+    let by_eta = per_mass(-model.static_stiffness(flow))?;
+    let by_etad = per_mass(rho * speed * model.forces.eta_etad() - &model.structure.damping)?;
+    let by_lag = per_mass(rho * speed * &emit)?;
+    let by_acceleration = &gather * &model.downwash.w_etad;
+    let rate_by_eta = &by_acceleration * &by_eta;
+    let rate_by_etad = speed * (&gather * &model.downwash.w_eta) + &by_acceleration * &by_etad;
+    let rate_by_lag = &by_acceleration * &by_lag;
+
+    let lag_at = |i: usize| model.lags[i / n_lag];
+    let n_states = 2 * n + model.lags.len() * n_lag;
+    Ok(Mat::from_fn(n_states, n_states, |r, c| {
+        let (lag_row, lag_column) = (r.checked_sub(2 * n), c.checked_sub(2 * n));
+        match (lag_row, lag_column) {
+            (None, _) if r < n => f64::from(u8::from(c == n + r)),
+            (None, None) if c < n => by_eta[(r - n, c)],
+            (None, None) => by_etad[(r - n, c - n)],
+            (None, Some(s)) => by_lag[(r - n, s % n_lag)],
+            (Some(t), None) if c < n => lag_at(t).gain * rate_by_eta[(t % n_lag, c)],
+            (Some(t), None) => lag_at(t).gain * rate_by_etad[(t % n_lag, c - n)],
+            (Some(t), Some(s)) => {
+                let decay = if t == s {
+                    2.0 * speed * lag_at(t).rate / chord_of_state[t % n_lag]
+                } else {
+                    0.0
+                };
+                decay + lag_at(t).gain * rate_by_lag[(t % n_lag, s % n_lag)]
+            }
+        }
+    }))
+}
+
+/// Indices of strips grouped by equal chords, in the order of first appearance.
+fn strips_of_one_chord(strips: &[Strip]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (j, strip) in strips.iter().enumerate() {
+        let of_this_chord = |group: &&mut Vec<usize>| {
+            let chord = group.first().map_or(f64::NAN, |&i| strips[i].chord);
+            (chord - strip.chord).abs() <= 4.0 * f64::EPSILON * strip.chord
+        };
+        match groups.iter_mut().find(of_this_chord) {
+            Some(group) => group.push(j),
+            None => groups.push(vec![j]),
+        }
+    }
+    groups
 }
 
 /// State matrix of `[eta, etad]` for quasi-steady aerodynamics: circulation without lag and no apparent mass.

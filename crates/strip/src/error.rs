@@ -28,6 +28,28 @@ pub enum Error {
         /// What it must be.
         expected: &'static str,
     },
+    /// A lag has a number that the theory cannot use.
+    #[error("lag {}: {quantity} is {value}, expected {expected}; lags decay and take downwash away (the paper's signs)", index + 1)]
+    BadLag {
+        /// Index of the lag, from 0.
+        index: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// An option or reference dimension is unusable.
+    #[error("{option} is {value}, expected {expected}")]
+    BadOption {
+        /// The option or dimension.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be, and the cure.
+        expected: &'static str,
+    },
     /// Density or speed is unusable.
     #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point")]
     BadFlow {
@@ -82,6 +104,19 @@ pub enum Error {
         /// Size of the last step, relative.
         last_step: f64,
     },
+    /// Speeds of a sweep do not increase.
+    #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1)]
+    NotIncreasing {
+        /// Index of the speed, from 0.
+        index: usize,
+        /// The speed before it.
+        previous: f64,
+        /// The speed found.
+        found: f64,
+    },
+    /// Modes could not be followed.
+    #[error(transparent)]
+    Tracking(#[from] albatross_lti::Error),
     /// A linear algebra step failed.
     #[error(transparent)]
     Numerics(#[from] albatross_numerics::Error),

@@ -7,7 +7,7 @@
 use crate::Error;
 use crate::elastic::AeroelasticModel;
 use crate::kernels::Kernel;
-use crate::neutral::{NeutralPoints, divergence_points, neutral_points};
+use crate::neutral::{divergence_points, lowest_onset};
 use crate::operator::Operator;
 use albatross_numerics::{C64, Mat};
 
@@ -37,30 +37,22 @@ pub fn divergence_speed(model: &AeroelasticModel, rho: f64) -> Result<Option<f64
 /// other than 2 pi with the downwash at three-quarter chord) has the flutter speed 0.
 ///
 /// # Errors
-/// As [`neutral_points`].
+/// As [`neutral_points`](crate::neutral::neutral_points).
 pub fn lag_flutter(model: &AeroelasticModel, rho: f64) -> Result<Option<Flutter>, Error> {
-    lowest(&neutral_points(model, rho, Kernel::Lags(&model.lags))?)
+    lowest(model, rho, Kernel::Lags(&model.lags))
 }
 
 /// The lowest flutter speed of the exact Theodorsen aerodynamics; none and 0 as for [`lag_flutter`].
 ///
 /// # Errors
-/// As [`neutral_points`].
+/// As [`neutral_points`](crate::neutral::neutral_points).
 pub fn exact_flutter(model: &AeroelasticModel, rho: f64) -> Result<Option<Flutter>, Error> {
-    lowest(&neutral_points(model, rho, Kernel::Theodorsen)?)
+    lowest(model, rho, Kernel::Theodorsen)
 }
 
-fn lowest(found: &NeutralPoints) -> Result<Option<Flutter>, Error> {
-    if let Some(&omega_rad_s) = found.unstable_at_rest.first() {
-        return Ok(Some(Flutter {
-            speed: 0.0,
-            omega_rad_s,
-        }));
-    }
-    Ok(found.points.iter().find(|p| p.growth > 0.0).map(|p| Flutter {
-        speed: p.speed,
-        omega_rad_s: p.omega_rad_s,
-    }))
+fn lowest(model: &AeroelasticModel, rho: f64, kernel: Kernel<'_>) -> Result<Option<Flutter>, Error> {
+    let found = lowest_onset(model, rho, kernel)?;
+    Ok(found.map(|(speed, omega_rad_s)| Flutter { speed, omega_rad_s }))
 }
 
 /// The aeroelastic operator of exact harmonic aerodynamics, `F(p, V)` with `F u = 0` for free motion `u exp(p t)`;
@@ -80,8 +72,8 @@ mod tests {
     fn perry() -> TypicalSection {
         TypicalSection {
             mass: 31.41592653589793,
-            static_moment: 6.283185307179586,
-            inertia: 7.853981633974483,
+            static_moment: std::f64::consts::TAU,
+            inertia: 2.5 * std::f64::consts::PI,
             plunge_stiffness: 78539.81633974482,
             pitch_stiffness: 78539.81633974482,
             semi_chord: 1.0,

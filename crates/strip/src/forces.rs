@@ -78,9 +78,10 @@ pub struct Downwash {
 /// The downwash rows of shapes that move.
 ///
 /// # Errors
-/// [`Error::Shape`] if shapes and strips differ in number.
+/// [`Error::Shape`] if shapes and strips differ in number, [`Error::NotFinite`] for shapes with NaN or infinities.
 pub fn downwash(strips: &[Strip], trial: &StripShapes, theory: &StripTheory) -> Result<Downwash, Error> {
     ensure_rows("trial shapes", &trial.phi, strips.len())?;
+    trial.check()?;
     let w_etad = trial.at(strips, |s| s.x_downwash(theory.downwash_point));
     Ok(Downwash {
         w_eta: trial.gamma.clone(),
@@ -91,7 +92,8 @@ pub fn downwash(strips: &[Strip], trial: &StripShapes, theory: &StripTheory) -> 
 /// The generalised forces on `test` shapes due to motion in `trial` shapes.
 ///
 /// # Errors
-/// [`Error::Shape`] if shapes and strips differ in number, [`Error::BadStrip`] for an unusable strip.
+/// [`Error::Shape`] if shapes and strips differ in number, [`Error::NotFinite`] for shapes with NaN or infinities,
+/// [`Error::BadStrip`] for an unusable strip, [`Error::BadOption`] for an unusable factor on the apparent mass.
 pub fn generalized_forces(
     strips: &[Strip],
     test: &StripShapes,
@@ -101,6 +103,9 @@ pub fn generalized_forces(
 ) -> Result<GeneralizedForces, Error> {
     ensure_rows("test shapes", &test.phi, strips.len())?;
     ensure_rows("trial shapes", &trial.phi, strips.len())?;
+    test.check()?;
+    trial.check()?;
+    theory.check()?;
     for (index, strip) in strips.iter().enumerate() {
         strip.check(index)?;
     }
@@ -215,10 +220,10 @@ mod tests {
             let lag = (c - 1.0) * w34;
             for (row, expected) in [(0, lift_down_positive_h), (1, moment)] {
                 let mut force = rho * v * q.eta_lambda_c[(row, 0)] * lag;
-                for k in 0..2 {
-                    force += rho * q.eta_etadd_nc[(row, k)] * p * p * eta[k]
-                        + rho * v * q.eta_etad()[(row, k)] * p * eta[k]
-                        + rho * v * v * q.eta_eta()[(row, k)] * eta[k];
+                for (k, &eta) in eta.iter().enumerate() {
+                    force += rho * q.eta_etadd_nc[(row, k)] * p * p * eta
+                        + rho * v * q.eta_etad()[(row, k)] * p * eta
+                        + rho * v * v * q.eta_eta()[(row, k)] * eta;
                 }
                 let expected = expected * s.width;
                 assert!(

@@ -4,6 +4,7 @@
 //! the branch cut of their Laplace transforms, which decay monotonically and are summed by the trapezoidal rule
 //! after the double-exponential substitution of Takahasi & Mori (1974).
 
+use crate::Error;
 use albatross_numerics::C64;
 use albatross_numerics::special::{
     bessel_i0_scaled, bessel_i1_scaled, bessel_j0, bessel_j1, bessel_k0_scaled, bessel_k1_scaled, bessel_y0,
@@ -21,6 +22,30 @@ pub struct Lag {
     pub rate: f64,
     /// Share of the downwash, `A_i < 0` \[-\].
     pub gain: f64,
+}
+
+impl Lag {
+    /// Checks that the lag decays and that its gain is a number.
+    ///
+    /// # Errors
+    /// [`Error::BadLag`].
+    pub fn check(&self, index: usize) -> Result<(), Error> {
+        let bad = |quantity, value, expected| {
+            Err(Error::BadLag {
+                index,
+                quantity,
+                value,
+                expected,
+            })
+        };
+        if !(self.rate.is_finite() && self.rate < 0.0) {
+            return bad("rate", self.rate, "a negative number");
+        }
+        if !self.gain.is_finite() {
+            return bad("gain", self.gain, "a finite number");
+        }
+        Ok(())
+    }
 }
 
 /// R. T. Jones's approximation of Wagner's function (NACA Report 681, 1940):
@@ -129,11 +154,14 @@ pub fn indicial_lags(lags: &[Lag], s: f64) -> f64 {
         .fold(1.0, |sum, lag| sum + lag.gain * (lag.rate * s).exp())
 }
 
-/// Wagner's function `phi(s)`, `s` semi-chords after a step of downwash (Wagner 1925); `phi(0) = 1/2`.
+/// Wagner's function `phi(s)`, `s` semi-chords after a step of downwash (Wagner 1925); `phi(0) = 1/2`, zero before.
 ///
 /// `phi(s) = 1 - int_0^inf exp(-x s) / (x^2 D(x)) dx`, `D = (K0 - K1)^2 + pi^2 (I0 + I1)^2` (Garrick 1938, NACA
 /// Report 629).
 pub fn wagner(s: f64) -> f64 {
+    if s < 0.0 {
+        return 0.0;
+    }
     1.0 - branch_cut_integral(|x| {
         let (d_scaled, _) = denominator(x);
         // D carries exp(2 x) by its I terms.
@@ -141,11 +169,14 @@ pub fn wagner(s: f64) -> f64 {
     })
 }
 
-/// Küssner's function `psi(s)`, `s` semi-chords after the leading edge meets a sharp-edged gust; `psi(0) = 0`.
+/// Küssner's function `psi(s)`, `s` semi-chords after the leading edge meets a sharp-edged gust; `psi(0) = 0`, zero before.
 ///
 /// `psi(s) = 1 - int_0^inf exp(x (1 - s)) (I0 + I1) / (x^2 D(x)) dx`: the inverse transform of
 /// `exp(-p) / (p^2 (K0(p) + K1(p)))` (von Kármán & Sears 1938).
 pub fn kuessner(s: f64) -> f64 {
+    if s < 0.0 {
+        return 0.0;
+    }
     1.0 - branch_cut_integral(|x| {
         let (d_scaled, i_sum_scaled) = denominator(x);
         (-x * s).exp() * i_sum_scaled / (x * x * d_scaled)

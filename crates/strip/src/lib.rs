@@ -19,12 +19,27 @@
 //! Collected on the modes these are the paper's Eqs. 7 to 12: see [`forces`] and [`elastic`].
 //!
 //! # Inputs and outputs
-//! In: [`Strip`]s, their [`StripShapes`], a [`Structure`]. Out: [`GeneralizedForces`], [`elastic::PiMatrices`], a state
-//! matrix over `[eta, etad, lambda_1, lambda_2]`, flutter and divergence speeds.
+//! In: [`Strip`]s, their [`StripShapes`], a [`Structure`].
+//!
+//! | module | out |
+//! |---|---|
+//! | [`slopes`] | strips with their lift slopes from AVL's strip files, a table, or thin-airfoil theory |
+//! | [`shapes`] | plunge and pitch of the modes on the strips, rigid-body shapes, dihedral |
+//! | [`forces`] | generalised force matrices, downwash |
+//! | [`quasi_steady`] | forces of rigid-body motion and controls on the modes |
+//! | [`elastic`] | Eq. 11's matrices and the state matrix over `[eta, etad, lambda_1, lambda_2]` |
+//! | [`kernels`] | Theodorsen, Wagner, Küssner, and lags |
+//! | [`flutter`] | the lowest flutter and divergence speeds |
+//! | [`neutral`] | every speed at which a mode is neutral, and which way it goes |
+//! | [`sweep`] | all modes over a range of speeds, by state space or p-k, with their crossings |
+//! | [`section`] | the typical section |
 //!
 //! # Limits
 //! Attached flow, small motion, chordwise-rigid sections, no aerodynamic coupling between strips. The lags are those
-//! of incompressible flow; compressibility enters by the lift slopes alone.
+//! of incompressible flow; compressibility enters by the lift slopes alone. A lift slope other than 2 pi with the
+//! downwash at three-quarter chord may feed a mode energy at the smallest speeds, which structural damping covers.
+//!
+//! Every input is checked: numbers that are not finite, strips without chord, arrays that do not fit are [`Error`]s.
 //!
 //! # Example
 //! A typical section, one strip with plunge and pitch, and its flutter speed:
@@ -54,6 +69,7 @@ pub mod section;
 pub mod shapes;
 pub mod slopes;
 pub mod strip;
+pub mod sweep;
 
 mod error;
 
@@ -75,6 +91,29 @@ fn ensure_rows(what: &'static str, matrix: &Mat<f64>, rows: usize) -> Result<(),
         expected: (rows, matrix.ncols()),
         found: (matrix.nrows(), matrix.ncols()),
     })
+}
+
+/// Refuses a matrix of another size.
+fn ensure_shape(what: &'static str, matrix: &Mat<f64>, expected: (usize, usize)) -> Result<(), Error> {
+    let found = (matrix.nrows(), matrix.ncols());
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::Shape {
+        what,
+        expected,
+        found,
+    })
+}
+
+/// Refuses NaN and infinities.
+fn ensure_finite_entries(what: &'static str, matrix: &Mat<f64>) -> Result<(), Error> {
+    for column in 0..matrix.ncols() {
+        if let Some(row) = (0..matrix.nrows()).find(|&row| !matrix[(row, column)].is_finite()) {
+            return Err(Error::NotFinite { what, row, column });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a flow quantity that is negative or not finite.

@@ -20,7 +20,7 @@ use crate::{Error, ensure_finite};
 use albatross_numerics::C64;
 
 pub use divergence::{DivergencePoint, divergence_points};
-pub(crate) use refine::{form, null_vectors};
+pub(crate) use refine::{NullVectors, bordered_step, form, null_vectors, weights};
 
 /// A neutral point of oscillatory motion.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -79,6 +79,41 @@ pub fn neutral_points(
     })
 }
 
+/// The lowest speed above which an oscillatory mode grows, with its frequency; speed 0 if one grows at any speed.
+///
+/// # Errors
+/// As [`neutral_points`].
+pub(crate) fn lowest_onset(
+    model: &AeroelasticModel,
+    rho: f64,
+    kernel: Kernel<'_>,
+) -> Result<Option<(f64, f64)>, Error> {
+    ensure_finite("density", rho)?;
+    let modal = ModalOperator::of(model, rho)?;
+    if rho == 0.0 || modal.n_elastic() == 0 {
+        return Ok(None);
+    }
+    let (unstable_at_rest, mut brackets) = scan::scan(&modal, kernel)?;
+    if let Some(&omega) = unstable_at_rest.first() {
+        return Ok(Some((0.0, omega)));
+    }
+    brackets.sort_by(|a, b| a.least_speed().total_cmp(&b.least_speed()));
+    let mut lowest: Option<(f64, f64)> = None;
+    for bracket in brackets {
+        // A bracket's speeds are those at its ends, give or take its width.
+        if lowest.is_some_and(|(speed, _)| bracket.least_speed() > 1.2 * speed) {
+            break;
+        }
+        if let Some(point) = refine::refine_within(&modal, kernel, bracket)?
+            && point.growth > 0.0
+            && lowest.is_none_or(|(speed, _)| point.speed < speed)
+        {
+            lowest = Some((point.speed, point.omega_rad_s));
+        }
+    }
+    Ok(lowest)
+}
+
 fn same(a: &NeutralPoint, b: &NeutralPoint) -> bool {
     let close = |x: f64, y: f64| (x - y).abs() <= 1e-8 * x.abs().max(y.abs());
     close(a.speed, b.speed) && close(a.omega_rad_s, b.omega_rad_s)
@@ -91,4 +126,11 @@ struct Bracket {
     kappa: [f64; 2],
     /// The root at each \[rad/s\].
     p: [C64; 2],
+}
+
+impl Bracket {
+    /// The lower of the speeds `Im p / kappa` at its ends.
+    fn least_speed(&self) -> f64 {
+        (self.p[0].im / self.kappa[0]).min(self.p[1].im / self.kappa[1])
+    }
 }

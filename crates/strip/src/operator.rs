@@ -44,6 +44,20 @@ pub(crate) struct Evaluation {
     pub(crate) by_ln_s: Mat<C64>,
 }
 
+impl Evaluation {
+    /// All parts with rows and columns multiplied by `weights`.
+    pub(crate) fn scaled(self, weights: &[f64]) -> Self {
+        let scale =
+            |a: Mat<C64>| Mat::from_fn(a.nrows(), a.ncols(), |k, l| a[(k, l)] * (weights[k] * weights[l]));
+        Self {
+            value: scale(self.value),
+            by_p: scale(self.by_p),
+            by_ln_speed: scale(self.by_ln_speed),
+            by_ln_s: scale(self.by_ln_s),
+        }
+    }
+}
+
 impl Operator {
     /// In the model's own coordinates.
     pub(crate) fn of(model: &AeroelasticModel, rho: f64) -> Self {

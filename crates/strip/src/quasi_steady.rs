@@ -12,7 +12,7 @@
 
 use crate::shapes::{DihedralForm, StripShapes};
 use crate::strip::Strip;
-use crate::{Error, ensure_rows};
+use crate::{Error, ensure_rows, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Derivatives of the strips' lift and moment coefficients; strips x variables.
@@ -43,10 +43,33 @@ pub struct ReferenceShape {
     pub span: f64,
 }
 
+impl ReferenceShape {
+    /// Checks what the generalised forces are divided by.
+    ///
+    /// # Errors
+    /// [`Error::BadOption`] for an area or chord that is not positive.
+    pub fn check(&self) -> Result<(), Error> {
+        for (option, value) in [
+            ("the reference area", self.area),
+            ("the reference chord", self.chord),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::BadOption {
+                    option,
+                    value,
+                    expected: "a positive number; correct the reference shape",
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
 /// `Q_X`, shapes x variables.
 ///
 /// # Errors
-/// [`Error::Shape`] if strips, shapes and loads differ in number.
+/// [`Error::Shape`] if strips, shapes and loads differ in number, [`Error::NotFinite`] for shapes with NaN or
+/// infinities, [`Error::BadOption`] for a reference area or chord that is not positive.
 pub fn rigid_to_elastic(
     strips: &[Strip],
     test: &StripShapes,
@@ -55,7 +78,9 @@ pub fn rigid_to_elastic(
 ) -> Result<Mat<f64>, Error> {
     ensure_rows("test shapes", &test.phi, strips.len())?;
     ensure_rows("strip lift", &loads.lift, strips.len())?;
-    ensure_rows("strip moment", &loads.moment, strips.len())?;
+    ensure_shape("strip moment", &loads.moment, (strips.len(), loads.lift.ncols()))?;
+    test.check()?;
+    reference.check()?;
     let test_ac = test.at(strips, |s| s.x_ac);
     let norm = 1.0 / (reference.area * reference.chord);
     let force = Mat::from_fn(strips.len(), loads.lift.ncols(), |j, x| {

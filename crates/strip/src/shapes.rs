@@ -1,7 +1,7 @@
 //! Mode shapes on strips: the normal displacement and the nose-up rotation at the load reference axis.
 
 use crate::strip::Strip;
-use crate::{Error, ensure_rows};
+use crate::{Error, ensure_finite_entries, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Shapes on the strips, one column a shape.
@@ -44,33 +44,27 @@ impl StripShapes {
     /// # Errors
     /// [`Error::Shape`] if the two differ in size, [`Error::NotFinite`] for a NaN or infinite entry.
     pub fn try_new(phi: Mat<f64>, gamma: Mat<f64>) -> Result<Self, Error> {
-        if phi.nrows() != gamma.nrows() || phi.ncols() != gamma.ncols() {
-            return Err(Error::Shape {
-                what: "gamma",
-                expected: (phi.nrows(), phi.ncols()),
-                found: (gamma.nrows(), gamma.ncols()),
-            });
-        }
-        for (what, matrix) in [("phi", &phi), ("gamma", &gamma)] {
-            for j in 0..matrix.ncols() {
-                for i in 0..matrix.nrows() {
-                    if !matrix[(i, j)].is_finite() {
-                        return Err(Error::NotFinite {
-                            what,
-                            row: i,
-                            column: j,
-                        });
-                    }
-                }
-            }
-        }
-        Ok(Self { phi, gamma })
+        let shapes = Self { phi, gamma };
+        shapes.check()?;
+        Ok(shapes)
+    }
+
+    /// Checks that both matrices are of one size and finite.
+    ///
+    /// # Errors
+    /// As [`StripShapes::try_new`].
+    pub fn check(&self) -> Result<(), Error> {
+        let (phi, gamma) = (&self.phi, &self.gamma);
+        ensure_shape("gamma", gamma, (phi.nrows(), phi.ncols()))?;
+        ensure_finite_entries("phi", phi)?;
+        ensure_finite_entries("gamma", gamma)
     }
 
     /// Shapes from the translations (y, z) and rotations (y, z) of the LRA at each strip, strips x modes each.
     ///
     /// # Errors
-    /// As [`StripShapes::try_new`]; the row counts must equal the number of strips.
+    /// As [`StripShapes::try_new`]; the rows of all four must be as many as there are strips, their columns as many as
+    /// those of the first.
     pub fn from_components(
         strips: &[Strip],
         form: DihedralForm,
@@ -83,7 +77,7 @@ impl StripShapes {
             ("rotation y", rotation_yz[0]),
             ("rotation z", rotation_yz[1]),
         ] {
-            ensure_rows(what, matrix, strips.len())?;
+            ensure_shape(what, matrix, (strips.len(), translation_yz[0].ncols()))?;
         }
         let modes = translation_yz[0].ncols();
         let blend = |vertical: &Mat<f64>, lateral: &Mat<f64>, sign: f64| {
@@ -133,9 +127,10 @@ impl StripShapes {
         self.phi.ncols()
     }
 
-    /// Displacement at a chordwise point of each strip: `phi - (x - x_lra) gamma`, strips x shapes.
+    /// Displacement at a chordwise point of each strip: `phi - (x - x_lra) gamma`, strips x shapes. Rows without a strip
+    /// are left out.
     pub fn at(&self, strips: &[Strip], x: impl Fn(&Strip) -> f64) -> Mat<f64> {
-        Mat::from_fn(self.n_strips(), self.n_shapes(), |j, k| {
+        Mat::from_fn(self.n_strips().min(strips.len()), self.n_shapes(), |j, k| {
             self.phi[(j, k)] - (x(&strips[j]) - strips[j].x_lra) * self.gamma[(j, k)]
         })
     }

@@ -57,6 +57,24 @@ impl Default for StripTheory {
     }
 }
 
+impl StripTheory {
+    /// Checks the numbers among the choices.
+    ///
+    /// # Errors
+    /// [`Error::BadOption`] for a factor on the apparent mass that is negative or not finite.
+    pub fn check(&self) -> Result<(), Error> {
+        let value = self.apparent_mass_factor;
+        if value.is_finite() && value >= 0.0 {
+            return Ok(());
+        }
+        Err(Error::BadOption {
+            option: "the factor on the apparent mass",
+            value,
+            expected: "zero or more: 1, or the cosine of the sweep",
+        })
+    }
+}
+
 impl Strip {
     /// Semi-chord `b = c/2` \[m\].
     pub fn semi_chord(&self) -> f64 {

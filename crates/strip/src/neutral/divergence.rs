@@ -65,7 +65,7 @@ fn growth(operator: &Operator, kernel: Kernel<'_>, speed: f64) -> Result<f64, Er
     let p = C64::from(1e-8 * speed / widest);
     let f = operator.evaluate(p, speed, kernel);
     let at_rest = operator.evaluate(C64::new(0.0, 0.0), speed, kernel).value;
-    let Some((right, left)) = super::null_vectors(&at_rest, &vec![1.0; operator.n()])? else {
+    let Some(super::NullVectors { right, left }) = super::null_vectors(&at_rest)? else {
         return Ok(f64::NAN);
     };
     let by_p = super::form(&left, &right, |r, c| f.by_p[(r, c)] + f.by_ln_s[(r, c)] / p);

@@ -62,8 +62,12 @@ fn newton(
     mut omega: f64,
 ) -> Result<Option<(f64, f64)>, Error> {
     const MOST_STEPS: usize = 40;
-    let evaluate = |speed: f64, omega: f64| modal.operator.evaluate(C64::new(0.0, omega), speed, kernel);
-    let Some((mut shape, _)) = null_vectors(&evaluate(speed, omega).value, &weights(modal, omega))? else {
+    let weights = weights(modal, omega);
+    let evaluate = |speed: f64, omega: f64| {
+        let p = C64::new(0.0, omega);
+        modal.operator.evaluate(p, speed, kernel).scaled(&weights)
+    };
+    let Some(NullVectors { right: mut shape, .. }) = null_vectors(&evaluate(speed, omega).value)? else {
         return Ok(None);
     };
     let normal: Vec<C64> = shape.iter().map(|u| u.conj()).collect();
@@ -107,8 +111,10 @@ pub(crate) fn weights(modal: &ModalOperator, omega: f64) -> Vec<f64> {
 
 /// The step of Newton's method for `F u = 0`, `l.u = 1` with two real parameters on which F depends.
 ///
+/// A multiple root, as of two wings alike, leaves the shape undetermined within its space: then the smallest step.
+///
 /// # Errors
-/// Those of the linear solver: the two parameters do not move the root independently.
+/// Those of the linear solvers, for entries that are not finite.
 pub(crate) fn bordered_step(
     value: &Mat<C64>,
     by_parameter: [&Mat<C64>; 2],
@@ -150,38 +156,44 @@ pub(crate) fn bordered_step(
     }
     right[2 * n] = scale * deficit.re;
     right[2 * n + 1] = scale * deficit.im;
-    let step = solve::solve_vec(jacobian.as_ref(), &right)?;
+    let step = match solve::solve_vec(jacobian.as_ref(), &right) {
+        Err(albatross_numerics::Error::Singular { .. }) => {
+            const RANK: f64 = 1e-11;
+            let right = Mat::from_fn(size, 1, |r, _| right[r]);
+            let fit = solve::least_squares_with_rank(jacobian.as_ref(), right.as_ref(), RANK)?;
+            (0..size).map(|r| fit.x[(r, 0)]).collect()
+        }
+        step => step?,
+    };
     Ok((
         (0..n).map(|c| C64::new(step[c], step[n + c])).collect(),
         [step[2 * n], step[2 * n + 1]],
     ))
 }
 
-/// Right and left vectors that F (with rows and columns scaled by `weights`) shrinks most: `F u = 0`, `l^H F = 0`.
-///
-/// u is of unit norm. None if F is not finite.
-pub(crate) fn null_vectors(value: &Mat<C64>, weights: &[f64]) -> Result<Option<(Vec<C64>, Vec<C64>)>, Error> {
+/// Right and left vectors of a singular matrix.
+pub(crate) struct NullVectors {
+    pub(crate) right: Vec<C64>,
+    pub(crate) left: Vec<C64>,
+}
+
+/// The vectors that F shrinks most, of unit norm: `F u = 0`, `l^H F = 0`. None if F is not finite.
+pub(crate) fn null_vectors(value: &Mat<C64>) -> Result<Option<NullVectors>, Error> {
     let n = value.nrows();
-    let scaled = Mat::from_fn(n, n, |r, c| value[(r, c)] * (weights[r] * weights[c]));
-    if !scaled.norm_max().is_finite() {
+    if !value.norm_max().is_finite() {
         return Ok(None);
     }
-    let svd = scaled
+    let svd = value
         .svd()
         .map_err(|_| albatross_numerics::Error::NoConvergence {
             what: "the singular value decomposition",
             size: n,
         })?;
     let last = n.saturating_sub(1);
-    let vector = |column: &dyn Fn(usize) -> C64| -> Vec<C64> {
-        let v: Vec<C64> = (0..n).map(|k| column(k) * weights[k]).collect();
-        let norm = v.iter().map(C64::norm_sqr).sum::<f64>().sqrt();
-        v.into_iter().map(|x| x / norm).collect()
-    };
-    Ok(Some((
-        vector(&|k| svd.V()[(k, last)]),
-        vector(&|k| svd.U()[(k, last)]),
-    )))
+    Ok(Some(NullVectors {
+        right: (0..n).map(|k| svd.V()[(k, last)]).collect(),
+        left: (0..n).map(|k| svd.U()[(k, last)]).collect(),
+    }))
 }
 
 /// `l^H A r`.
@@ -199,8 +211,11 @@ fn direction(
     omega: f64,
 ) -> Result<Option<NeutralPoint>, Error> {
     let p = C64::new(0.0, omega);
-    let f = modal.operator.evaluate(p, speed, kernel);
-    let Some((right, left)) = null_vectors(&f.value, &weights(modal, omega))? else {
+    let f = modal
+        .operator
+        .evaluate(p, speed, kernel)
+        .scaled(&weights(modal, omega));
+    let Some(NullVectors { right, left }) = null_vectors(&f.value)? else {
         return Ok(None);
     };
     let by_p = form(&left, &right, |r, c| f.by_p[(r, c)] + f.by_ln_s[(r, c)] / p);
