@@ -1,68 +1,12 @@
 //! The command as a user runs it.
 
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod support;
 
-fn fixtures() -> PathBuf {
-    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures"))
-}
+// The messages hold texts of the operating system.
+#[cfg(unix)]
+mod errors;
 
-fn albatross(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_albatross"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn case() -> String {
-    fixtures().join("f25-like/case.toml").display().to_string()
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = albatross(arguments);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-/// A copy of the F25-like case that a test may damage.
-fn copy_of_case() -> tempfile::TempDir {
-    let copy = tempfile::tempdir().unwrap();
-    let from = fixtures().join("f25-like");
-    for folder in ["", "avl_out", "airfoils", "reference"] {
-        std::fs::create_dir_all(copy.path().join(folder)).unwrap();
-        for entry in std::fs::read_dir(from.join(folder)).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_file() {
-                std::fs::copy(&path, copy.path().join(folder).join(path.file_name().unwrap())).unwrap();
-            }
-        }
-    }
-    copy
-}
-
-fn replace(path: &Path, from: &str, to: &str) {
-    let text = std::fs::read_to_string(path).unwrap();
-    assert!(text.contains(from), "{} has no {from}", path.display());
-    std::fs::write(path, text.replacen(from, to, 1)).unwrap();
-}
-
-/// Standard error of a command that must fail.
-fn failure(arguments: &[&str]) -> String {
-    let output = albatross(arguments);
-    assert_eq!(
-        output.status.code(),
-        Some(1),
-        "{}",
-        String::from_utf8_lossy(&output.stdout)
-    );
-    assert!(output.stdout.is_empty(), "a failing command prints no result");
-    String::from_utf8(output.stderr).unwrap()
-}
+use support::{CaseCopy, albatross, case, failure, fixtures, json};
 
 #[test]
 fn val_every_stage_prints_json_and_a_table() {
@@ -88,32 +32,6 @@ fn val_every_stage_prints_json_and_a_table() {
         assert!(output.status.success() && !output.stdout.is_empty(), "{stage}");
         assert!(output.stderr.is_empty(), "--quiet is quiet");
     }
-}
-
-/// A deck and its results need no case: frequencies of the stick aircraft agree between the two solvers' files, and a
-/// clamped beam keeps its first mode (no mode is taken for rigid by its number).
-#[test]
-fn val_modes_of_files() {
-    let file = |name: &str| fixtures().join("nastran").join(name).display().to_string();
-    let modes = |deck: &str, results: &str| {
-        json(&[
-            "modes",
-            "--deck",
-            &file(deck),
-            "--results",
-            &file(results),
-            "--modes",
-            "4",
-            "--json",
-        ])
-    };
-    let frequency = |v: &Value, i: usize| v["modes"][i]["frequency_hz"].as_f64().unwrap();
-    let (a, b) = (modes("stick.bdf", "stick.f06"), modes("stick.bdf", "stick95.out"));
-    for i in 0..4 {
-        assert!((frequency(&a, i) / frequency(&b, i) - 1.0).abs() < 1e-5);
-    }
-    assert_eq!(modes("cant.bdf", "cant.f06")["modes"][0]["number_in_file"], 1);
-    assert!(failure(&["modes", "--deck", &file("cant.bdf")]).contains("--results"));
 }
 
 #[test]
@@ -169,80 +87,44 @@ fn val_neutral_models() {
     assert!((wing["exact"]["V"].as_f64().unwrap() - 136.95382144326476).abs() < 1e-4);
 }
 
-/// Each way in which an input can be bad: the message names the place and the cure, and nothing is written.
+/// A run whose input cannot be used writes nothing; docs/ERRORS.md has more ways to be refused.
 #[test]
 fn val_bad_input_is_refused_with_place_and_cure() {
-    let copy = copy_of_case();
-    let at = |name: &str| copy.path().join(name);
-    let case = at("case.toml").display().to_string();
-    let out = copy.path().join("out");
-    let run = || failure(&["run", &case, "--out", out.to_str().unwrap()]);
-    let original = |name: &str| std::fs::copy(fixtures().join("f25-like").join(name), at(name)).unwrap();
-    let expect = |message: &str, words: &[&str]| {
+    let copy = CaseCopy::new();
+    let (case, out) = (copy.arg("case.toml"), copy.arg("out"));
+    let refused = |file: &str, from: &str, to: &str, words: &[&str]| {
+        copy.replace(file, from, to);
+        let message = failure(&["run", &case, "--out", &out]);
         for word in words {
             assert!(message.contains(word), "`{word}` is missing in: {message}");
         }
-        assert!(!out.exists(), "nothing is half written");
+        assert!(!copy.at("out").exists(), "nothing is half written");
+        copy.restore(file);
     };
-
-    // A wrong number in the deck.
-    replace(
-        &at("f25.bdf"),
-        "GRID        1003        17.37104     2.9",
-        "GRID        1003        17.3x104     2.9",
+    refused(
+        "f25.bdf",
+        "17.37104",
+        "17.3x104",
+        &["f25.bdf", "GRID", "17.3x104"],
     );
-    expect(&run(), &["f25.bdf", "GRID", "17.3x104"]);
-    original("f25.bdf");
-
-    // A grid that elements need is missing.
-    replace(
-        &at("f25.bdf"),
-        "GRID        1003        17.37104     2.9-1.06907\n",
-        "",
+    refused(
+        "f25.f06",
+        "OUTPUT FOR EIGENVECTOR        9",
+        "OUTPUT FOR",
+        &["f25.f06", "mode"],
     );
-    expect(&run(), &["1003"]);
-    original("f25.bdf");
-
-    // Results without eigenvectors.
-    let text = std::fs::read_to_string(at("f25.f06")).unwrap();
-    std::fs::write(
-        at("f25.f06"),
-        &text[..text.find("E I G E N V E C T O R").unwrap()],
-    )
-    .unwrap();
-    expect(&run(), &["f25.f06", "DISPLACEMENT"]);
-
-    // Truncated within a vector.
-    std::fs::write(at("f25.f06"), &text[..text.len() * 3 / 4]).unwrap();
-    let cut = run();
-    expect(&cut, &["f06"]);
-    original("f25.f06");
-
-    // AVL overflow.
-    replace(&at("avl_out/trim.st"), "CLa =   7.296941", "CLa = ***********");
-    expect(&run(), &["trim.st", "CLa"]);
-    original("avl_out/trim.st");
-
-    // The wrong kind of AVL file.
-    std::fs::copy(at("avl_out/trim.ft"), at("avl_out/trim.st")).unwrap();
-    expect(&run(), &["trim.st", "ST"]);
-    original("avl_out/trim.st");
-
-    // An unknown grid in the case file.
-    replace(&at("case.toml"), "grid = 3003", "grid = 3999");
-    expect(&run(), &["3999"]);
-    original("case.toml");
-
-    // A file that is not there.
-    replace(&at("case.toml"), "deck = \"f25.bdf\"", "deck = \"nothing.bdf\"");
-    expect(&run(), &["nothing.bdf"]);
-    original("case.toml");
-
-    // An unknown variant.
-    let message = failure(&["trim", &case, "--variant", "cfd"]);
-    assert!(
-        message.contains("`cfd`") && message.contains("corrected_lagged"),
-        "{message}"
+    refused(
+        "avl_out/trim.st",
+        "CLa =   7.296941",
+        "CLa = ***********",
+        &["trim.st", "CLa"],
+    );
+    refused("case.toml", "grid = 3003", "grid = 3999", &["3999"]);
+    refused(
+        "case.toml",
+        "deck = \"f25.bdf\"",
+        "deck = \"nothing.bdf\"",
+        &["nothing.bdf"],
     );
 }
 
