@@ -7,6 +7,7 @@ use albatross::flight::{
 };
 use albatross::lti::StateSpace;
 use albatross::lti::simulation::Hold;
+use albatross::modal::Symmetry;
 use albatross::numerics::eigen;
 use albatross::{Inputs, Model};
 use std::path::Path;
@@ -339,8 +340,9 @@ fn val_order_of_integration() {
     }
 }
 
-/// The elevator leaves lateral and antisymmetric states at rounding, of the arithmetic and of the seven digits with which
-/// mode shapes are printed.
+/// The elevator leaves the lateral states of the rigid body at rounding. Antisymmetric modes move by what is left of the
+/// symmetry when shapes are printed with seven digits: 1e-8 of the symmetric motion. (The flight crate's own tests show
+/// both at 1e-12 on an aircraft that is symmetric to the last digit.)
 #[test]
 fn val_symmetric_input() {
     let (equations, t) = trimmed(model().options);
@@ -351,15 +353,31 @@ fn val_symmetric_input() {
         (2.0, 2000),
         Method::Rk4,
     );
-    for (signal, (end, start)) in equations
-        .layout()
-        .signals()
+    let moved: Vec<f64> = history
+        .final_state
         .iter()
-        .zip(history.final_state.iter().zip(&t.state))
-    {
-        if !signal.name.starts_with("lambda") {
-            println!("{} {:.3e}", signal.name, end - start);
-        }
+        .zip(&t.state)
+        .map(|(end, start)| (end - start).abs())
+        .collect();
+    let signals = equations.layout().signals();
+    for name in ["v", "p", "r", "phi", "psi", "east"] {
+        let lateral = moved[signals.iter().position(|s| s.name == name).unwrap()];
+        println!("{name}: {lateral:.1e}");
+        assert!(lateral < 1e-10, "{name}: {lateral:e}");
+    }
+    for states in [equations.layout().eta(), equations.layout().eta_rate()] {
+        let largest = |wanted: Symmetry| {
+            let modes = model().basis.modes.iter().zip(&moved[states.clone()]);
+            modes
+                .filter(|(m, _)| m.symmetry == wanted)
+                .fold(0.0_f64, |largest, (_, v)| largest.max(*v))
+        };
+        let (symmetric, antisymmetric) = (largest(Symmetry::Symmetric), largest(Symmetry::Antisymmetric));
+        println!("symmetric {symmetric:.1e}, antisymmetric {antisymmetric:.1e}");
+        assert!(
+            antisymmetric < 2e-8 * symmetric,
+            "{antisymmetric:e} {symmetric:e}"
+        );
     }
 }
 
@@ -379,7 +397,7 @@ fn val_engines_in_place() {
         engine.modal_work.clear();
     }
     let (_, reference) = trim(&without, options, &model.point).unwrap();
-    // First symmetric bending: the aft-leaning wing tip moves the engine; static answer T phi / (K - rho V^2 Q).
+    // The static answer to the work of the thrust and to what it changes in the trim.
     let part = model.aircraft.elastic.as_ref().unwrap();
     let flow = albatross::strip::Flow {
         rho: with_work.density,
@@ -411,44 +429,60 @@ fn val_engines_in_place() {
         albatross::numerics::solve::solve_vec(part.model.static_stiffness(flow).as_ref(), &load).unwrap();
     let size = expected.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     assert!(size > 0.0);
-    for k in 0..20 {
+    for (k, expected) in expected.iter().enumerate() {
         let found = with_work.eta[k] - reference.eta[k];
         assert!(
-            (found - expected[k]).abs() < 1e-8 * size,
-            "mode {}: {found} {}",
-            k + 1,
-            expected[k]
+            (found - expected).abs() < 1e-8 * size,
+            "mode {}: {found} {expected}",
+            k + 1
         );
     }
 }
 
-/// Ten times the cruise speed in the same air is beyond the divergence speed; a rigid aircraft has none.
+/// Speeds that cannot carry the weight, altitudes without an atmosphere model and unknown controls are refused.
 #[test]
-fn val_divergence_is_reported() {
-    let point = FlightPoint {
-        speed: 2_500.0,
-        ..model().point.clone()
+fn val_impossible_flight_points() {
+    let fly_at = |point: FlightPoint| {
+        trim(&model().aircraft, model().options, &point)
+            .map(|(_, t)| t)
+            .unwrap_err()
     };
-    let result = trim(&model().aircraft, model().options, &point).map(|(_, t)| t.alpha_rad);
-    println!("{result:?}");
-    match result {
-        Err(Error::Divergence {
-            speed,
-            divergence_speed,
-            ..
-        }) => {
-            assert!(speed == 2_500.0 && divergence_speed > model().point.speed);
-        }
-        other => panic!("{other:?}"),
-    }
-    let rigid = ModelOptions {
-        fidelity: Fidelity::Rigid,
-        ..model().options
-    };
-    assert!(!matches!(
-        trim(&model().aircraft, rigid, &point),
-        Err(Error::Divergence { .. })
-    ));
+    let point = model().point.clone();
+    let slow = fly_at(FlightPoint {
+        speed: 30.0,
+        ..point.clone()
+    });
+    assert!(matches!(slow, Error::TrimNotConverged { .. }), "{slow}");
+    let high = fly_at(FlightPoint {
+        altitude: 40_000.0,
+        ..point.clone()
+    });
+    assert!(
+        matches!(
+            high,
+            Error::BadQuantity {
+                quantity: "altitude",
+                ..
+            }
+        ),
+        "{high}"
+    );
+    let rudder = fly_at(FlightPoint {
+        control: "rudder".into(),
+        ..point.clone()
+    });
+    assert!(
+        matches!(&rudder, Error::NoTrimAuthority { unknown, .. } if unknown == "rudder"),
+        "{rudder}"
+    );
+    let unknown = fly_at(FlightPoint {
+        control: "canard".into(),
+        ..point
+    });
+    assert!(
+        matches!(&unknown, Error::UnknownControl { known, .. } if known.contains("elevator")),
+        "{unknown}"
+    );
 }
 
 /// An unstable step is reported with time and state.
@@ -465,30 +499,4 @@ fn val_unstable_step_is_reported() {
     let error = simulate(&equations, &t, &manoeuvre).unwrap_err();
     println!("{error}");
     assert!(matches!(error, Error::Diverged { dt: 0.1, .. }), "{error}");
-}
-#[test]
-fn tmp_outputs() {
-    let (equations, t) = trimmed(model().options);
-    let system = linear(&equations, &t);
-    for (frequency_hz, end) in [(0.5, 5.0), (0.5, 10.0), (3.125, 5.0), (10.0, 5.0)] {
-        for edges in [Edges::Square, Edges::Smooth] {
-        let steps = (end * 1000.0) as usize;
-        let signal = doublet(0.01, frequency_hz, edges);
-        let flown = fly(&equations, &t, signal.clone(), (end, steps), Method::Rk4);
-        let linear = albatross::lti::simulate_rk4(&system, 1e-3, steps, None, |t, stage, u| {
-            u.fill(0.0);
-            u[ELEVATOR] = signal.at(t, if stage == albatross::numerics::integrate::Stage::End { Side::Left } else { Side::Right });
-        }).unwrap();
-        print!("{frequency_hz} {end} {edges:?}: ");
-        for output in &system.outputs {
-            let linear = linear.output(&output.name).unwrap();
-            let flown = flown.get(&output.name).unwrap();
-            let peak = linear.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            let linear = linear.iter().step_by(steps / 100);
-            let w = flown.iter().zip(linear).fold(0.0_f64, |m, (a, b)| m.max((a - flown[0] - b).abs() / peak));
-            print!("{} {w:.1e} ", output.name);
-        }
-        println!();
-        }
-    }
 }

@@ -1,5 +1,7 @@
 //! Integration tests of the facade.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a test stops where it fails")]
+
 mod f25;
 mod flight_f25;
 mod oracle;
