@@ -10,6 +10,7 @@ use crate::equations::AirData;
 use crate::layout::Layout;
 use crate::scalar::Scalar;
 use albatross_numerics::{Mat, eigen};
+use albatross_strip::GeneralizedForces;
 use albatross_strip::kernels::Lag;
 
 /// Constant matrices of the elastic part.
@@ -314,17 +315,20 @@ fn stacked(modes: &Mat<f64>, body: &Mat<f64>, i: usize, j: usize) -> f64 {
     }
 }
 
+/// `[Q_eta, Q_etad]` of modes and body. Quasi-steady air is circulation that follows the downwash at once,
+/// `rho V Q_lambda (V w_eta eta + w_etad etad)`, however the apparent-mass terms are booked.
 fn by_motion(part: &ElasticPart, unsteady: bool) -> ColumnMatrix {
     let (own, rows) = (&part.model.forces, &part.rigid_rows);
+    let (w_eta, w_etad) = (&part.model.downwash.w_eta, &part.model.downwash.w_etad);
     let n = part.model.n_modes();
-    let [(eta, body_eta), (etad, body_etad)] = if unsteady {
-        [(own.eta_eta(), rows.eta_eta()), (own.eta_etad(), rows.eta_etad())]
-    } else {
-        [
-            (own.eta_eta_c.clone(), rows.eta_eta_c.clone()),
-            (own.eta_etad_c.clone(), rows.eta_etad_c.clone()),
-        ]
+    let of = |q: &GeneralizedForces| {
+        if unsteady {
+            (q.eta_eta(), q.eta_etad())
+        } else {
+            (&q.eta_lambda_c * w_eta, &q.eta_lambda_c * w_etad)
+        }
     };
+    let ((eta, etad), (body_eta, body_etad)) = (of(own), of(rows));
     ColumnMatrix::from_fn(n + 6, 2 * n, |i, j| {
         if j < n {
             stacked(&eta, &body_eta, i, j)

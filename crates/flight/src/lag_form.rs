@@ -5,8 +5,9 @@
 //! is diagonal. The transformation changes neither eigenvalues nor transfer functions, and a frequency response can
 //! eliminate the lags one by one.
 
+use crate::Error;
 use crate::aircraft::Fidelity;
-use crate::equations::EquationsOfMotion;
+use crate::equations::{EquationsOfMotion, ensure_size};
 use albatross_lti::StateSpace;
 use albatross_numerics::Mat;
 
@@ -14,13 +15,14 @@ use albatross_numerics::Mat;
 /// for models without lags.
 ///
 /// # Errors
-/// As [`StateSpace::try_new`].
+/// [`Error::Sizes`] for the system of other equations; [`Error::Lti`] for a speed that is not finite.
 pub fn diagonal_lag_form(
     system: &StateSpace,
     equations: &EquationsOfMotion,
     speed: f64,
-) -> Result<StateSpace, albatross_lti::Error> {
+) -> Result<StateSpace, Error> {
     let layout = equations.layout();
+    ensure_size("states of the linear system", system.a.nrows(), layout.n_states())?;
     let part = match (&equations.aircraft().elastic, equations.options().fidelity) {
         (Some(part), Fidelity::Unsteady) if layout.n_lags > 0 => part,
         _ => return Ok(system.clone()),
@@ -64,7 +66,7 @@ pub fn diagonal_lag_form(
     for state in states.iter_mut().skip(first_lag) {
         state.name = state.name.replacen("lambda", "nu", 1);
     }
-    StateSpace::try_new(
+    Ok(StateSpace::try_new(
         (
             a,
             to_new_rows(&system.b),
@@ -74,7 +76,7 @@ pub fn diagonal_lag_form(
         states,
         system.inputs.clone(),
         system.outputs.clone(),
-    )
+    )?)
 }
 
 /// Off the diagonal of the lag block only rounding is left, of differences of numbers as large as the matrix's: it is

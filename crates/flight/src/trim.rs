@@ -4,7 +4,7 @@
 //! `(K - rho V^2 Q_eta) eta = q S cbar (Q_0 + Q_alpha alpha + Q_u u) + T phi_T`, so that Newton's method works on
 //! three accelerations: along body x, along body z, in pitch.
 
-use crate::aircraft::{Aircraft, Fidelity, ModelOptions, ShapeReference};
+use crate::aircraft::{Aircraft, ModelOptions, ShapeReference};
 use crate::equations::EquationsOfMotion;
 use crate::{Error, atmosphere};
 use albatross_numerics::{Mat, solve};
@@ -209,13 +209,8 @@ impl StaticShape {
                     rho: density,
                     speed: point.speed,
                 };
-                let stiffness = match equations.options().fidelity {
-                    Fidelity::QuasiSteady => {
-                        &part.model.structure.stiffness
-                            - density * point.speed * point.speed * &part.model.forces.eta_eta_c
-                    }
-                    _ => part.model.static_stiffness(flow),
-                };
+                // At rest quasi-steady air is the unsteady one: all lags are zero.
+                let stiffness = part.model.static_stiffness(flow);
                 Some(solve::inverse(stiffness.as_ref())?)
             }
         };

@@ -1,11 +1,12 @@
 //! The elastic part against the formulas, evaluated without any of the model's shortcuts.
 
-use crate::test_models::{cruise, flexible, two_modes};
+use crate::test_models::{Elasticity, cruise, flexible, two_modes};
 use albatross_flight::{
     Aircraft, ControlAerodynamics, EquationsOfMotion, Fidelity, ModelOptions, ShapeReference, atmosphere,
     trim,
 };
 use albatross_numerics::{Mat, solve};
+use albatross_strip::Split;
 use albatross_strip::kernels::{JONES, indicial_lags};
 use proptest::prelude::*;
 
@@ -286,5 +287,26 @@ fn val_lagged_control_follows_wagner() {
             let tail_lags = [4, 9].map(|j| layout.lags().start + j);
             assert!(tail_lags.iter().all(|&i| xdot[i].abs() < 1e-6));
         }
+    }
+}
+
+/// How the terms of pitch and plunge are booked changes nothing, in unsteady and in quasi-steady air.
+#[test]
+fn val_split_does_not_matter() {
+    for fidelity in [Fidelity::Unsteady, Fidelity::QuasiSteady] {
+        let [a, b] = [Split::ApparentMass, Split::Theodorsen].map(|split| {
+            let aircraft = flexible(&Elasticity { split, ..two_modes() });
+            let equations = EquationsOfMotion::new(&aircraft, jig(fidelity)).unwrap();
+            let n = equations.layout().n_states();
+            let mut x: Vec<f64> = (0..n).map(|i| 0.3 * (i as f64 + 0.5).sin()).collect();
+            x[0] = 150.0;
+            x[equations.layout().altitude()] = 5_000.0;
+            let mut xdot = vec![0.0; n];
+            equations
+                .derivative(&x, &[0.02, 4e4], &mut equations.workspace(), &mut xdot)
+                .unwrap();
+            xdot
+        });
+        assert!(largest_difference(&a, &b) < 1e-13, "{fidelity:?}");
     }
 }

@@ -1,8 +1,8 @@
 //! The diagonal form of the lag states is the same system.
 
-use crate::test_models::{cruise, flexible, two_modes};
+use crate::test_models::{cruise, flexible, transport, two_modes};
 use albatross_flight::lag_form::diagonal_lag_form;
-use albatross_flight::{ControlAerodynamics, ModelOptions, linearize, trim};
+use albatross_flight::{ControlAerodynamics, Error, ModelOptions, linearize, trim};
 use albatross_lti::frequency_response;
 use albatross_numerics::eigen;
 
@@ -46,4 +46,17 @@ fn val_diagonal_lags_keep_the_system() {
             }
         }
     }
+}
+
+/// The system of one model with the equations of another is refused; a model without lags is left as it is.
+#[test]
+fn val_other_systems() {
+    let (equations, t) = trim(&flexible(&two_modes()), ModelOptions::default(), &cruise()).unwrap();
+    let (rigid, rigid_trim) = trim(&transport(), ModelOptions::default(), &cruise()).unwrap();
+    let system = linearize(&rigid, &rigid_trim.state, &rigid_trim.input).unwrap();
+    let refused = diagonal_lag_form(&system, &equations, t.speed());
+    assert!(matches!(refused, Err(Error::Sizes { .. })));
+    assert_eq!(diagonal_lag_form(&system, &rigid, t.speed()).unwrap(), system);
+    let flexible = linearize(&equations, &t.state, &t.input).unwrap();
+    assert!(diagonal_lag_form(&flexible, &equations, f64::NAN).is_err());
 }

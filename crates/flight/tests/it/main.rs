@@ -5,6 +5,7 @@
 mod conservation;
 mod elastic;
 mod engines;
+mod extremes;
 mod integration;
 mod lag_form;
 mod linearization;

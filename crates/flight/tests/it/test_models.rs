@@ -124,6 +124,7 @@ pub(crate) struct Elasticity {
     pub(crate) modal_mass: Vec<f64>,
     pub(crate) lags: Vec<Lag>,
     pub(crate) apparent_mass_factor: f64,
+    pub(crate) split: Split,
 }
 
 /// Wing torsion (1 rad nose up over the wing) and antisymmetric wing bending (1 m at 14 m).
@@ -149,6 +150,7 @@ pub(crate) fn two_modes() -> Elasticity {
         modal_mass: vec![5_000.0, 3_000.0],
         lags: JONES.to_vec(),
         apparent_mass_factor: 1.0,
+        split: Split::ApparentMass,
     }
 }
 
@@ -211,7 +213,7 @@ pub(crate) fn flexible(elasticity: &Elasticity) -> Aircraft {
             &rigid_shapes,
             &elasticity.shapes,
             &theory,
-            Split::ApparentMass,
+            elasticity.split,
         )
         .unwrap(),
         q_x,
@@ -223,7 +225,7 @@ pub(crate) fn flexible(elasticity: &Elasticity) -> Aircraft {
             strips,
             elasticity.shapes.clone(),
             &theory,
-            Split::ApparentMass,
+            elasticity.split,
             &elasticity.lags,
         )
         .unwrap(),
