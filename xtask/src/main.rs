@@ -1,3 +1,57 @@
-//! Development tasks.
+//! Development tasks of the workspace: `cargo xtask validate | tidy | ci | bench`.
+//!
+//! | task | does |
+//! |---|---|
+//! | `validate` | runs the F25-like case and writes `docs/validation/`; `--check` compares with what is there |
+//! | `tidy` | checks what the compiler does not: the crate graph, purity of the physics crates, file sizes, text hygiene |
+//! | `ci` | all checks that a change must pass, in order |
+//! | `bench` | runs the benches and collects their results |
 
-fn main() {}
+// A tool for the terminal: its answers go to standard output, its progress to standard error.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod bench;
+mod ci;
+mod error;
+mod tidy;
+mod validate;
+mod workspace;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Development tasks of the Albatross workspace.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", version)]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Run the F25-like case and write docs/validation/, or compare with it
+    Validate(validate::Options),
+    /// Check the invariants of the workspace that the compiler does not
+    Tidy,
+    /// Run every check that a change must pass
+    Ci,
+    /// Run the benches and collect their results
+    Bench(bench::Options),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().task {
+        Task::Validate(options) => validate::run(&options),
+        Task::Tidy => tidy::run(),
+        Task::Ci => ci::run(),
+        Task::Bench(options) => bench::run(&options),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Text: blanks, line ends, paths of one machine, links.
+
+use std::path::Path;
+
+/// Beginnings of paths that exist on one machine only. Written in pieces, so that this file does not hold them.
+const MACHINE_PATHS: [&str; 6] = [
+    concat!("/", "work/"),
+    concat!("/", "home/"),
+    concat!("/", "root/"),
+    concat!("/", "Users/"),
+    concat!("/", "tmp/"),
+    concat!("C:", "\\"),
+];
+
+/// Checks one file; `path` is relative to `root`.
+pub(super) fn check(root: &Path, path: &str, text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    // Lists of dependencies and results are written by programs.
+    let written = path.ends_with(".lock") || path.ends_with(".svg") || path.ends_with(".csv");
+    for (number, line) in text.lines().enumerate() {
+        let mut report = |what: String| found.push(format!("{path}:{}: {what}", number + 1));
+        if line.contains('\t') && !written {
+            report("holds a tab".into());
+        }
+        if line.ends_with([' ', '\r']) {
+            report("ends in a blank or carriage return".into());
+        }
+        for machine in MACHINE_PATHS {
+            if line.contains(machine) {
+                report(format!("names a path of one machine ({machine})"));
+            }
+        }
+        if path.ends_with(".md") {
+            for target in links(line) {
+                let directory = Path::new(path).parent().unwrap_or(Path::new(""));
+                if !root.join(directory).join(target).exists() {
+                    report(format!("links to {target}, which is not there"));
+                }
+            }
+        }
+    }
+    if !text.is_empty() && (!text.ends_with('\n') || text.ends_with("\n\n")) {
+        found.push(format!("{path}: does not end in one line feed"));
+    }
+    found
+}
+
+/// Targets of Markdown links to files, without anchors.
+fn links(line: &str) -> impl Iterator<Item = &str> {
+    line.split("](").skip(1).filter_map(|rest| {
+        let target = rest.split([')', '#', ' ']).next()?;
+        let file = !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:");
+        file.then_some(target)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blemishes_are_found_with_their_line() {
+        let root = tempfile::tempdir().unwrap();
+        let text = format!("fine\na\tb\nblank \n{}x\nend", MACHINE_PATHS[0]);
+        let found = check(root.path(), "a.rs", &text);
+        assert_eq!(found.len(), 4, "{found:?}");
+        assert!(
+            found[0].starts_with("a.rs:2:") && found[1].starts_with("a.rs:3:"),
+            "{found:?}"
+        );
+        assert!(check(root.path(), "a.rs", "fine\n").is_empty());
+    }
+
+    #[test]
+    fn links_must_lead_somewhere() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::write(root.path().join("b.md"), "x\n").unwrap();
+        let text = "[b](b.md#part) [c](c.md) ![d](https://example.org/d.svg) [e](#here)\n";
+        assert_eq!(
+            check(root.path(), "a.md", text),
+            ["a.md:1: links to c.md, which is not there"]
+        );
+    }
+}

@@ -1,0 +1,440 @@
+//! The page: what is compared with what, the tables and figures in order, and what they say.
+
+use super::account::{self, Account};
+use super::check::{END_OF_MEASURED, FLOOR, MEASURED, RELATIVE};
+use super::figures::Figure;
+use super::fits;
+use super::reference::MANOEUVRES;
+use super::study::{CORRECTED, Study, VARIANTS};
+use super::tables::{self, Named};
+use crate::error::Error;
+use albatross::report::{Cell, Column, Format, Page, Table};
+use std::path::Path;
+
+/// Files that the report is made from, with size and checksum.
+pub(crate) fn inputs(root: &Path, study: &Study) -> Result<Table, Error> {
+    let mut table = Table::new(
+        "Inputs",
+        [
+            Column::text("file"),
+            Column::text("what"),
+            Column::new("size", "bytes", Format::Exact),
+            Column::text("FNV-1a 64"),
+        ],
+    )
+    .with_caption("The checksum tells whether a file has changed; it is no protection against intent.");
+    let case = &study.inputs.case;
+    let mut named = vec![
+        ("f25-like/case.toml".to_owned(), "case file"),
+        (own(&case.structure.deck), "Nastran deck"),
+        (own(&case.structure.results), "SOL 103 results"),
+        (own(&case.aerodynamics.geometry), "AVL geometry"),
+        (own(&case.aerodynamics.derivatives), "AVL stability derivatives"),
+    ];
+    named.extend(
+        case.aerodynamics
+            .strips
+            .iter()
+            .map(|s| (own(&s.file), "AVL strip forces")),
+    );
+    if let Some(corrections) = &case.corrections {
+        named.extend(
+            corrections
+                .lift_slopes
+                .iter()
+                .map(|file| (own(file), "corrected strip slopes")),
+        );
+        named.extend(
+            corrections
+                .derivatives
+                .iter()
+                .map(|file| (own(file), "corrected derivatives")),
+        );
+    }
+    for (name, _) in MANOEUVRES {
+        named.push((own(&format!("reference/{name}.csv")), "reference, time history"));
+    }
+    named.push((
+        own("reference/eigenvalues.json"),
+        "reference, trim and eigenvalues",
+    ));
+    named.push(("paper/paper_tables.json".into(), "the paper's printed tables"));
+    named.push(("paper/paper_recomputed.json".into(), "the same recomputed"));
+    for (file, what) in named {
+        let path = root.join("fixtures").join(&file);
+        let bytes = std::fs::read(&path).map_err(Error::file(&path))?;
+        table.push([
+            Cell::from(format!("fixtures/{file}")),
+            what.into(),
+            bytes.len().into(),
+            format!("{:016x}", fnv1a(&bytes)).into(),
+        ])?;
+    }
+    Ok(table)
+}
+
+fn own(file: &str) -> String {
+    format!("f25-like/{file}")
+}
+
+/// The 64-bit FNV-1a hash (Fowler, Noll & Vo).
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// What the page is put together from.
+struct Parts<'a> {
+    page: Page,
+    tables: &'a [Named],
+    figures: &'a [Figure],
+}
+
+impl Parts<'_> {
+    fn table(&mut self, stem: &str) -> Result<(), Error> {
+        let named = self
+            .tables
+            .iter()
+            .find(|t| t.stem == stem)
+            .ok_or_else(|| missing(stem))?;
+        if named.measured {
+            self.page.paragraph(MEASURED);
+        }
+        self.page.table(&named.table);
+        self.page
+            .paragraph(&format!("[CSV]({stem}.csv), [JSON]({stem}.json)"));
+        if named.measured {
+            self.page.paragraph(END_OF_MEASURED);
+        }
+        Ok(())
+    }
+
+    fn figure(&mut self, number: u32) -> Result<(), Error> {
+        let start = format!("figure{number:02}");
+        let figure = self
+            .figures
+            .iter()
+            .find(|f| f.file.starts_with(&start))
+            .ok_or_else(|| missing(&start))?;
+        self.page
+            .image(&figure.file, &figure.alternative, &figure.caption);
+        Ok(())
+    }
+}
+
+fn missing(what: &str) -> Error {
+    Error::Mismatch {
+        what: "parts of the page".into(),
+        found: format!("no `{what}`"),
+        expected: "a table or figure of that name".into(),
+    }
+}
+
+/// The whole page.
+pub(crate) fn write(
+    study: &Study,
+    account: &Account,
+    tables: &[Named],
+    figures: &[Figure],
+) -> Result<String, Error> {
+    let mut parts = Parts {
+        page: Page::new(),
+        tables,
+        figures,
+    };
+    introduction(&mut parts, study)?;
+    longitudinal(&mut parts)?;
+    fitted(&mut parts, study)?;
+    reasons(&mut parts, study, account)?;
+    frequency_domain(&mut parts, study)?;
+    modes(&mut parts, study)?;
+    cost(&mut parts)?;
+    Ok(parts.page.finish())
+}
+
+fn introduction(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
+    parts
+        .page
+        .heading(1, "Validation: the F25-like aircraft")
+        .paragraph(
+            "Written by `cargo xtask validate`. `cargo xtask validate --check` computes everything again and compares it \
+             with the files here. Every table is also there as CSV and JSON, every figure is an SVG file.",
+        )
+        .heading(2, "What is compared with what")
+        .bullets([
+            "**The aircraft is an invented surrogate, not the DLR-F25**, whose model is not public. It has the published \
+             global figures and, fitted, the published frequencies in vacuo. Its shapes, loads and results are its own.",
+            "**The reference is not CFD.** Its time histories, trim and eigenvalues come from an independent simulation \
+             of the same surrogate with the doublet lattice method (DLM), 50 modes and an unsteady elevator with hinge \
+             rate. No shock, no viscosity, no fuselage; the aerodynamics is linear, and the strip slopes that it was scaled \
+             to are synthetic. Agreement with it is easier than with CFD. Its description is in \
+             [fixtures/f25-like/reference](../../fixtures/f25-like/reference/README.md).",
+            "**The paper's columns are printed figures of another aircraft**, the DLR-F25, from CFD and from the ModSiG \
+             model. They stand beside for orientation. Where a printed figure does not follow from the others, it is \
+             recomputed and flagged.",
+            "**Nothing is tuned** to the reference's histories, to its eigenvalues or to the paper.",
+        ])
+        .paragraph("Albatross runs in three variants of [the case file](../../fixtures/f25-like/case.toml):");
+    let described: Vec<String> = VARIANTS
+        .iter()
+        .map(|(name, shown)| {
+            let description = study
+                .inputs
+                .case
+                .variant(Some(name))
+                .map(|v| v.description)
+                .unwrap_or_default();
+            format!("**{shown}** (`{name}`): {description}")
+        })
+        .collect();
+    parts.page.bullets(described.iter().map(String::as_str)).paragraph(
+        "The correction takes the place of the paper's CFD data: the slopes of the rigid strips and the eight rigid \
+         longitudinal derivatives of the reference's steady aerodynamics. (The paper takes its strip slopes from CFD of \
+         the flexible aircraft and uses them for increments due to deformation, which counts the static relief twice.)",
+    );
+    parts.page.heading(2, "Inputs and versions");
+    parts.table("inputs")?;
+    parts.page.paragraph(&format!(
+        "Albatross {}, Rust {} or later. Numbers agree between machines to rounding: `--check` allows {RELATIVE:.0e} of a \
+         value and {FLOOR:.0e} in all, one unit of the last place on this page, and leaves measured times out.",
+        env!("CARGO_PKG_VERSION"),
+        env!("CARGO_PKG_RUST_VERSION"),
+    ));
+    parts.page.heading(2, "Strip lift and trim");
+    parts.figure(4)?;
+    parts.table("trim")
+}
+
+fn longitudinal(parts: &mut Parts<'_>) -> Result<(), Error> {
+    parts.page.heading(2, "Peaks of the longitudinal motion");
+    parts.table("table3_peaks")?;
+    parts.figure(7)?;
+    parts.table("table3_paper_differences")
+}
+
+fn fitted(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
+    parts.page.heading(2, "Fits");
+    parts.table("fits")?;
+    parts.table("fits_reference_variants")?;
+    parts.page.heading(2, "The main claim");
+    parts.table("claim")?;
+    parts.page.paragraph(&format!(
+        "{} The data of the correction are those of the reference's own steady aerodynamics, so that this tests the method, \
+         not the quality of any CFD.",
+        fits::verdict(study)?
+    ));
+    for number in [12, 13, 9, 10, 11] {
+        parts.figure(number)?;
+    }
+    Ok(())
+}
+
+/// `a to b %` over the outputs of a manoeuvre.
+fn span(account: &Account, name: &str, manoeuvre: usize) -> String {
+    let fits = account
+        .experiments
+        .iter()
+        .find(|e| e.name == name)
+        .and_then(|e| e.fits.get(manoeuvre));
+    let [low, high] = fits::range(fits.map_or(&[][..], Vec::as_slice));
+    format!("{low:.0} to {high:.0} %")
+}
+
+/// Frequency and damping ratio of the short period of an experiment.
+fn short_period(account: &Account, name: &str) -> String {
+    let mode = account
+        .experiments
+        .iter()
+        .find(|e| e.name == name)
+        .and_then(|e| e.short_period.as_ref());
+    mode.map_or_else(String::new, |m| {
+        format!("{:.3} rad/s, ζ = {:.3}", m.omega_rad_s, m.damping_ratio)
+    })
+}
+
+/// Largest change of a fit between two experiments, in points.
+fn largest_change(account: &Account, from: &str, to: &str) -> f64 {
+    let of = |name: &str| {
+        account
+            .experiments
+            .iter()
+            .find(|e| e.name == name)
+            .map(|e| e.fits.concat())
+    };
+    let pairs = of(from)
+        .unwrap_or_default()
+        .into_iter()
+        .zip(of(to).unwrap_or_default());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn reasons(parts: &mut Parts<'_>, study: &Study, account: &Account) -> Result<(), Error> {
+    use account::{
+        ALL_MODES, AS_IS, BOTH, LAGGED_AS_IS, LAGGED_BOTH, LAGGED_OWN_TAIL, LINEAR, OWN_TAIL, RATE, STATIC,
+    };
+    const SLOW: usize = 0;
+    const QUICK: usize = 2;
+    parts.page.heading(2, "Where Albatross lands, and why").paragraph(
+        "The model is the paper's: quasi-steady derivatives for the rigid motion, strips with Wagner's lag for the elastic \
+         motion, twenty modes. The experiments below give the linearised model what the reference's description says it \
+         lacks, one thing after the other. They are not options of the program, and none is used anywhere else.",
+    );
+    parts.table("account_experiments")?;
+    parts.table("account_static_derivatives")?;
+    parts.table("account_elevator_rate")?;
+    let reference = study.reference.modes.short_period();
+    let reference = reference.map_or_else(String::new, |m| {
+        format!("{:.3} rad/s, ζ = {:.3}", m.omega_rad_s, m.zeta)
+    });
+    let damping = |mode: usize| -> Result<String, Error> {
+        let own = study
+            .ranked(&study.modes(CORRECTED)?[0])?
+            .get(mode - 1)
+            .copied()
+            .flatten();
+        let other = study.ranked_reference()?.get(mode - 1).copied().flatten();
+        let [own, other] =
+            [own.map(|m| m.damping_ratio), other.map(|m| m.zeta)].map(|z| z.unwrap_or(f64::NAN));
+        Ok(format!("{own:.3} against {other:.3} in mode {mode}"))
+    };
+    let items = [
+        format!(
+            "**Size of the motion: no.** The linearised model fits as the non-linear one does (largest change {:.1} \
+             points).",
+            largest_change(account, AS_IS, LINEAR)
+        ),
+        format!(
+            "**Unsteadiness of the rigid motion: the larger part at 0.5 Hz.** With the reference's `CLα̇` and `Cmα̇`, the \
+             first term of what its wing's lag and the late downwash at its tail amount to, the corrected model goes from \
+             {} to {}, and the short period from {} to {} (reference: {reference}). The paper's model has no such term \
+             either.",
+            span(account, AS_IS, SLOW),
+            span(account, RATE, SLOW),
+            short_period(account, AS_IS),
+            short_period(account, RATE),
+        ),
+        format!(
+            "**Static aeroelasticity: most of the rest at 0.5 Hz.** Strips do not act on each other: when the wing washes \
+             out, its downwash at the tail stays what it was, and the slopes of the tail's strips hold the wing's downwash \
+             for the tail's own motion as well. With the reference's static derivatives alone the model reaches {}; with \
+             both, {} and {}.",
+            span(account, STATIC, SLOW),
+            span(account, BOTH, SLOW),
+            short_period(account, BOTH),
+        ),
+        format!(
+            "**More modes: not those at hand.** All 24 elastic modes of the f06 change no fit by more than {:.2} points. \
+             The reference has 50; its own variant with 20 loses 3 to 5 % at 0.5 Hz and 1 to 23 % at 10 Hz.",
+            largest_change(account, AS_IS, ALL_MODES)
+        ),
+        format!(
+            "**Tail slopes: a compromise.** Without the wing's downwash in the tail strips' slopes, fits at 0.5 Hz become \
+             {} (short period {}) and, with lagged elevator, {} at 10 Hz. One half of the coupling between wing and tail is \
+             not better than none throughout; the default stays the paper's.",
+            span(account, OWN_TAIL, SLOW),
+            short_period(account, OWN_TAIL),
+            span(account, LAGGED_OWN_TAIL, QUICK),
+        ),
+        format!(
+            "**Elevator at 10 Hz.** The paper names the elevator's quasi-steady lift as a cause of too large peaks, and the \
+             reference bears it out: lagged through the strips' Wagner states, the fits go from {} to {}. At 0.5 Hz they go \
+             from {} to {}: Wagner's function is that of a wing of infinite span, and its lag at low frequency is too large \
+             for a tail, as the table of rates shows; the hinge rate, which leads, is missing.",
+            span(account, AS_IS, QUICK),
+            span(account, LAGGED_AS_IS, QUICK),
+            span(account, AS_IS, SLOW),
+            span(account, LAGGED_AS_IS, SLOW),
+        ),
+        format!(
+            "**What remains at 10 Hz** ({} with lagged elevator and both sets of derivatives) lies in the elastic modes: the \
+             hinge rate (up to 17 % by the reference's own variant), modes beyond the twentieth, and damping by strips \
+             instead of a lifting surface, {}, {} and {}.",
+            span(account, LAGGED_BOTH, QUICK),
+            damping(1)?,
+            damping(4)?,
+            damping(13)?,
+        ),
+    ];
+    parts.page.bullets(items.iter().map(String::as_str));
+    parts.page.paragraph(&format!(
+        "So the corrected model lands at {} at 0.5 Hz and {} at 10 Hz, with lagged elevator at {} and {}. The reference's \
+         own quasi-steady variant, which keeps the lifting surface and the fifty modes, reaches 86 to 90 % and 51 to 88 %.",
+        span(account, AS_IS, SLOW),
+        span(account, AS_IS, QUICK),
+        span(account, LAGGED_AS_IS, SLOW),
+        span(account, LAGGED_AS_IS, QUICK),
+    ));
+    Ok(())
+}
+
+fn frequency_domain(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
+    parts.page.heading(2, "Frequency domain");
+    parts.figure(8)?;
+    parts.table("table4_fits_of_identified")?;
+    parts.table("table5_poles")?;
+    let claims = &study.paper.recomputed.table5_claims;
+    parts.page.paragraph(&format!(
+        "The paper concludes that the difference of the modes' frequencies is very often smaller than 3.5 % and never \
+         greater than 6 %. Its own table of {} rows has {} of {} elastic ones below 3.5 %, at most {:.2} %, and with the short period \
+         {} rows above 6 %, at most {:.2} %.",
+        claims.n_rows,
+        claims.n_flex_below_3p5,
+        claims.n_flexible,
+        claims.max_flexible_printed,
+        claims.n_all_above_6,
+        claims.max_all_printed
+    ));
+    Ok(())
+}
+
+fn modes(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
+    parts.page.heading(2, "Modes");
+    for stem in [
+        "table7_structural_modes",
+        "table8_aeroelastic_modes",
+        "table8_mean_differences",
+    ] {
+        parts.table(stem)?;
+    }
+    let differences: Vec<String> = tables::mean_differences(study)?
+        .iter()
+        .map(|(name, d)| {
+            format!(
+                "{name}: {:.2} % against the paper (worst {:+.1} %, mode {}; {:.2} % in order of frequency alone), {:.2} % \
+                 against the reference (worst {:+.1} %, mode {})",
+                d.paper.mean,
+                d.paper.worst,
+                d.paper.mode,
+                d.paper_by_frequency.mean,
+                d.reference.mean,
+                d.reference.worst,
+                d.reference.mode
+            )
+        })
+        .collect();
+    parts
+        .page
+        .paragraph("Mean absolute differences of the twenty frequencies:")
+        .bullets(differences.iter().map(String::as_str));
+    parts.table("rigid_body_modes")
+}
+
+fn cost(parts: &mut Parts<'_>) -> Result<(), Error> {
+    parts.page.heading(2, "Cost");
+    parts.table("table6_cost")?;
+    parts.table("table6_measured")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Test vectors of the authors' specification (draft-eastlake-fnv, appendix C).
+    #[test]
+    fn val_fnv1a() {
+        assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}
