@@ -33,8 +33,8 @@ pub fn divergence_speed(model: &AeroelasticModel, rho: f64) -> Result<Option<f64
 /// The lowest flutter speed of the state space with the model's lags; none if no oscillatory mode loses its stability
 /// at a reduced frequency between 200 and 1e-4.
 ///
-/// A model with a mode that grows however small the speed (which negative damping brings about, or a lift slope
-/// other than 2 pi with the downwash at three-quarter chord) has the flutter speed 0.
+/// A structure with negative damping has the flutter speed 0. Modes to which the air itself gives energy from the
+/// smallest speed on lose no stability and are passed over; [`crate::neutral::NeutralPoints`] lists them.
 ///
 /// # Errors
 /// As [`neutral_points`](crate::neutral::neutral_points).

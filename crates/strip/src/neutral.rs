@@ -37,7 +37,9 @@ pub struct NeutralPoint {
 /// Where oscillatory modes lose and regain stability.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct NeutralPoints {
-    /// Frequencies of modes that grow however small the speed \[rad/s\], ascending.
+    /// Frequencies of modes that grow however small the speed \[rad/s\], ascending. Negative structural damping does
+    /// this, and so may a lift slope other than 2 pi with the downwash at three-quarter chord: the damping at the high
+    /// reduced frequencies of small speeds, `-k/2 phi_34^2` for 2 pi, then has no definite sign.
     pub unstable_at_rest: Vec<f64>,
     /// Neutral points in the order of speed.
     pub points: Vec<NeutralPoint>,
@@ -79,7 +81,8 @@ pub fn neutral_points(
     })
 }
 
-/// The lowest speed above which an oscillatory mode grows, with its frequency; speed 0 if one grows at any speed.
+/// The lowest speed at which an oscillatory mode loses its stability, with its frequency; speed 0 if the structure's own
+/// damping feeds a mode.
 ///
 /// # Errors
 /// As [`neutral_points`].
@@ -94,7 +97,9 @@ pub(crate) fn lowest_onset(
         return Ok(None);
     }
     let (unstable_at_rest, mut brackets) = scan::scan(&modal, kernel)?;
-    if let Some(&omega) = unstable_at_rest.first() {
+    if let Some(&omega) = unstable_at_rest.first()
+        && modal.damping_feeds_energy()?
+    {
         return Ok(Some((0.0, omega)));
     }
     brackets.sort_by(|a, b| a.least_speed().total_cmp(&b.least_speed()));

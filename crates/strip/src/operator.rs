@@ -187,6 +187,17 @@ impl ModalOperator {
         })
     }
 
+    /// Whether some motion is fed by the structure's damping matrix.
+    pub(crate) fn damping_feeds_energy(&self) -> Result<bool, Error> {
+        let damping = &self.operator.damping;
+        let n = self.operator.n();
+        let symmetric = Mat::from_fn(n, n, |k, l| 0.5 * (damping[(k, l)] + damping[(l, k)]));
+        let identity = Mat::<f64>::identity(n, n);
+        let (powers, _) = eigen::symmetric_generalized(symmetric.as_ref(), identity.as_ref())?;
+        let rounding = 1e-12 * symmetric.norm_max();
+        Ok(powers.first().is_some_and(|least| *least < -rounding))
+    }
+
     /// Number of modes with stiffness; the first ones.
     pub(crate) fn n_elastic(&self) -> usize {
         self.omega.iter().filter(|w| **w > 0.0).count()

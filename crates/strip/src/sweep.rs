@@ -4,7 +4,7 @@
 //!
 //! - **state space**: eigenvalues of the state matrix with lags, followed by the overlap of left and right
 //!   eigenvectors ([`albatross_lti::Tracker`]);
-//! - **p-k** (Hassig 1971): roots of `F(p, V) u = 0` with Theodorsen's function at `k_j = Im(p) b_j / V` for each strip,
+//! - **p-k** (Hassig, J. Aircraft 8, 1971): roots of `F(p, V) u = 0` with Theodorsen's function at `k_j = Im(p) b_j / V` for each strip,
 //!   followed by Newton's method and the likeness of the shape; real roots see `C = 1`.
 //!
 //! The crossings are those of [`neutral_points`] and [`divergence_points`], which do not depend on the speeds asked

@@ -16,9 +16,9 @@ pub(super) struct StateSpace<'a> {
     speed: f64,
 }
 
-/// Steps may be as wide as half the way between two speeds: the overlap decides whether they are too wide.
+/// Steps may be as wide as the way between two speeds: the overlap decides whether they are too wide.
 const OPTIONS: TrackOptions = TrackOptions {
-    largest_step: 0.5,
+    largest_step: 1.0,
     least_step: 1.0 / 16384.0,
     tolerance: 0.25,
     most_decompositions: 200,
