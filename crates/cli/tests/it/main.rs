@@ -1,5 +1,9 @@
 //! The command as a user runs it.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
+
+mod case_page;
+mod options;
 mod support;
 
 // The messages hold texts of the operating system.
