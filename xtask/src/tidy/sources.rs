@@ -19,7 +19,11 @@ pub(super) fn check(path: &str, text: &str, kind: Kind) -> Vec<String> {
     if matches!(name, "lib.rs" | "main.rs") && !text.starts_with("//!") {
         found.push(format!("{path}: does not begin with documentation (//!)"));
     }
-    let tested = path.contains("/tests/") || path.contains("/benches/") || name == "tests.rs";
+    // Tests, benches and examples are programs.
+    let tested = ["/tests/", "/benches/", "/examples/"]
+        .iter()
+        .any(|part| path.contains(part))
+        || name == "tests.rs";
     if matches!(kind, Kind::Physics | Kind::Report) && !tested {
         found.extend(
             impurities(text)
