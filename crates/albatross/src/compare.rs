@@ -40,7 +40,7 @@ pub fn peaks(time: &[f64], series: &[f64], count: usize, prominence: f64) -> Vec
     let Some(&first) = series.first() else {
         return found;
     };
-    if !(threshold > 0.0) {
+    if threshold.is_nan() || threshold <= 0.0 {
         return found;
     }
     // The extreme candidates since the last accepted turning point.

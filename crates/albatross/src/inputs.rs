@@ -35,6 +35,9 @@ pub struct Inputs {
     pub notes: Vec<String>,
 }
 
+/// Times \[s\] and values.
+pub type Samples = (Vec<f64>, Vec<f64>);
+
 impl Inputs {
     /// Reads a case file and all that it names.
     ///
@@ -86,7 +89,7 @@ impl Inputs {
     ///
     /// # Errors
     /// [`Error::Read`], [`Error::Table`]; none of them for other signals, which return no samples.
-    pub fn signal_samples(&self, signal: &SignalCase) -> Result<Option<(Vec<f64>, Vec<f64>)>, Error> {
+    pub fn signal_samples(&self, signal: &SignalCase) -> Result<Option<Samples>, Error> {
         let SignalCase::Csv {
             file,
             time_column,

@@ -87,7 +87,7 @@ impl Inputs {
         axes.map(|(name, entries)| {
             Ok(Component {
                 name: name.clone(),
-                grids: grid_list(entries)?.into_iter().map(Into::into).collect(),
+                grids: grid_list(entries)?,
             })
         })
         .collect()
@@ -124,7 +124,7 @@ impl Model {
             });
         }
         let basis = inputs.basis()?;
-        let mass = basis.mass.clone().ok_or_else(|| Error::Mismatch {
+        let mass = basis.mass.ok_or_else(|| Error::Mismatch {
             what: "mass of the aircraft".into(),
             found:
                 "neither a complete mass matrix in the deck nor a grid point weight generator in the results"
@@ -350,7 +350,7 @@ fn engines(
             let (sin_i, cos_i) = engine.incidence_deg.to_radians().sin_cos();
             let (sin_t, cos_t) = engine.toe_deg.to_radians().sin_cos();
             let direction = [cos_i * cos_t, sin_t, -sin_i * cos_t];
-            let shapes = basis.shape_at(engine.grid.into())?;
+            let shapes = basis.shape_at(engine.grid)?;
             // Body axes against structural axes: x and z change sign.
             let modal_work = shapes
                 .iter()
@@ -369,9 +369,9 @@ fn engines(
 /// Position of a grid in body axes from the centre of gravity.
 fn position(grid: u32, basis: &ModalBasis, mass: &MassProperties) -> Result<[f64; 3], Error> {
     // An unknown grid gets the basis's own error with the nearest numbers.
-    basis.shape_at(grid.into())?;
+    basis.shape_at(grid)?;
     let at = basis
-        .grid_index(grid.into())
+        .grid_index(grid)
         .and_then(|i| basis.grids.get(i))
         .map_or([0.0; 3], |g| g.position);
     Ok(mass.to_body_axes(at))
@@ -381,7 +381,7 @@ fn sensor(case: &SensorCase, basis: &ModalBasis, mass: &MassProperties) -> Resul
     let point = match case.grid {
         None => None,
         Some(grid) => {
-            let shapes = basis.shape_at(grid.into())?;
+            let shapes = basis.shape_at(grid)?;
             Some(SensorPoint {
                 position: position(grid, basis, mass)?,
                 translation_up: shapes.iter().map(|s| s[2]).collect(),

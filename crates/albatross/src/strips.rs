@@ -157,7 +157,7 @@ fn shapes_on_axes(
         let entries = inputs.case.structure.lra.get(name).map_or(&[][..], Vec::as_slice);
         let axis = LoadReferenceAxis {
             name: name.clone(),
-            grids: grid_list(entries)?.into_iter().map(Into::into).collect(),
+            grids: grid_list(entries)?,
         };
         let members: Vec<usize> = (0..records.len()).filter(|&j| &lra[j] == name).collect();
         let stations: Vec<Station> = members
