@@ -94,7 +94,7 @@ pub struct Trimmed {
 /// Trims a model and linearises it, attitude in Euler angles.
 ///
 /// # Errors
-/// As [`albatross_flight::trim`] and [`linearize`].
+/// As [`albatross_flight::trim()`] and [`linearize()`].
 pub fn trimmed(model: &Model) -> Result<Trimmed, Error> {
     with_fidelity(model, model.options.fidelity)
 }
@@ -401,7 +401,7 @@ pub fn manoeuvre(
 /// Simulates a manoeuvre of the case with the non-linear model.
 ///
 /// # Errors
-/// As [`manoeuvre`] and [`simulate`].
+/// As [`manoeuvre()`] and [`simulate()`].
 pub fn simulate_case(inputs: &Inputs, trimmed: &Trimmed, case: &ManoeuvreCase) -> Result<TimeHistory, Error> {
     let manoeuvre = manoeuvre(inputs, &trimmed.equations, case)?;
     Ok(simulate(&trimmed.equations, &trimmed.trim, &manoeuvre)?)

@@ -173,7 +173,7 @@ impl Model {
     /// Trims the model.
     ///
     /// # Errors
-    /// As [`trim`].
+    /// As [`trim()`].
     pub fn trim(&self) -> Result<(EquationsOfMotion, Trim), Error> {
         Ok(trim(&self.aircraft, self.options, &self.point)?)
     }
