@@ -112,8 +112,8 @@ impl Measurement {
         self.estimates.median.point_estimate
     }
 
-    /// Functions of one group and one parameter do the same work in different ways.
-    fn same_work(&self, other: &Self) -> bool {
+    /// Whether a ratio of the two says something: one group, one parameter.
+    fn same_group(&self, other: &Self) -> bool {
         (&self.name.group_id, &self.name.value_str) == (&other.name.group_id, &other.name.value_str)
     }
 }
@@ -161,13 +161,13 @@ fn table(results: &[Measurement]) -> Result<Table, Error> {
             time("95 % from"),
             time("95 % to"),
             Column::new("throughput", "MB/s", Format::Significant(3)),
-            Column::new("times the quickest of the same work", "", Format::Fixed(2)),
+            Column::new("times the quickest of its group", "", Format::Fixed(2)),
         ],
     );
     for result in results {
         let quickest = results
             .iter()
-            .filter(|other| other.same_work(result))
+            .filter(|other| other.same_group(result))
             .map(Measurement::median_ns)
             .fold(f64::INFINITY, f64::min);
         let interval = &result.estimates.median.confidence_interval;

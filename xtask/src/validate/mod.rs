@@ -6,7 +6,7 @@
 //! | module | subject |
 //! |---|---|
 //! | [`study`] | the computation |
-//! | [`reference`], [`paper`] | what it is compared with |
+//! | [`mod@reference`], [`paper`] | what it is compared with |
 //! | [`tables`], [`fits`], [`account`], [`figures`] | what is shown |
 //! | [`page`] | the page and the provenance of its inputs |
 //! | [`check`] | comparison of two directories of results |

@@ -5,7 +5,7 @@ use super::check::{END_OF_MEASURED, FLOOR, MEASURED, RELATIVE};
 use super::figures::Figure;
 use super::fits;
 use super::reference::MANOEUVRES;
-use super::study::{CORRECTED, Study, VARIANTS};
+use super::study::{AVL, CORRECTED, Study, VARIANTS, control_index};
 use super::tables::{self, Named};
 use crate::error::Error;
 use albatross::report::{Cell, Column, Format, Page, Table};
@@ -219,9 +219,20 @@ fn fitted(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
     parts.table("fits_reference_variants")?;
     parts.page.heading(2, "The main claim");
     parts.table("claim")?;
+    let derivatives = |index: usize| -> Result<[f64; 2], Error> {
+        let model = &study.variant(index)?.model;
+        let elevator = control_index(&model.aircraft.controls, &model.point.control)?;
+        let pitch = &model.aircraft.rigid.pitch;
+        Ok([
+            pitch.alpha,
+            pitch.controls.get(elevator).copied().unwrap_or(f64::NAN),
+        ])
+    };
+    let ([stiffness, power], [true_stiffness, true_power]) = (derivatives(AVL)?, derivatives(CORRECTED)?);
     parts.page.paragraph(&format!(
-        "{} The data of the correction are those of the reference's own steady aerodynamics, so that this tests the method, \
-         not the quality of any CFD.",
+        "{} What AVL's data lack most is pitch stiffness, Cmα = {stiffness:.3} against {true_stiffness:.3} of the reference, \
+         and they have too much elevator, Cmδ = {power:.3} against {true_power:.3}. The data of the correction are those of \
+         the reference's own steady aerodynamics, so that this tests the method, not the quality of any CFD.",
         fits::verdict(study)?
     ));
     for number in [12, 13, 9, 10, 11] {

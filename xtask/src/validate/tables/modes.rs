@@ -281,7 +281,8 @@ pub(super) fn rigid_body(study: &Study) -> Result<Table, Error> {
     }
     let mut table = Table::new("Rigid-body modes", heads).with_caption(
         "Modes without oscillation are given by their eigenvalue in 1/s instead of ω; they have no ζ. The correction \
-         changes longitudinal derivatives only. In the paper, the short period is at 1.65 rad/s (ModSiG) and 1.74 to \
+         changes longitudinal derivatives only; no lateral motion is compared, and AVL, like the reference, has no \
+         fuselage. In the paper, the short period is at 1.65 rad/s (ModSiG) and 1.74 to \
          1.77 rad/s (identified from CFD) and the phugoid at about 0.07 rad/s.",
     );
     let modes = &study.reference.modes;
