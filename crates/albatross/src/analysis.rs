@@ -202,6 +202,7 @@ pub fn mode_table_without_lags(model: &Model, trimmed: &Trimmed) -> Result<ModeT
         .modes
         .iter()
         .zip(&model.damping)
+        .take(layout.n_modes)
         .map(|(m, xi)| C64::new(-xi, (1.0 - xi * xi).sqrt()) * m.omega_rad_s)
         .collect();
     let rigid_values: Vec<C64> = named.iter().map(|(_, value)| *value).collect();

@@ -51,7 +51,8 @@ impl Inputs {
 
         let (deck, remarks) = bdf::read_strict(at(&case.structure.deck))?;
         notes.extend(remarks.iter().map(ToString::to_string));
-        let results = f06::read(at(&case.structure.results))?;
+        let results = read_results(&at(&case.structure.results))?;
+        notes.extend(results.diagnostics.iter().map(ToString::to_string));
 
         let (geometry, remarks) = avl(&at(&case.aerodynamics.geometry), Geometry::parse)?;
         notes.extend(remarks.iter().map(ToString::to_string));
@@ -105,6 +106,17 @@ impl Inputs {
             columns.numbers(value_column)?,
         )))
     }
+}
+
+/// Reads modal results; remarks of severity error are refused with their places.
+///
+/// # Errors
+/// [`Error::Nastran`].
+pub fn read_results(path: &Path) -> Result<ModalResults, Error> {
+    let results = f06::read(path)?;
+    let remarks = results.diagnostics.clone();
+    let (results, _) = albatross_nastran::refuse_errors((results, remarks))?;
+    Ok(results)
 }
 
 /// Reads a text file.

@@ -197,10 +197,9 @@ fn assemble(
     let geometry = &inputs.geometry;
     let avl_options = AvlOptions {
         cg: mass.cg,
-        moment_point: [geometry.x_ref, geometry.y_ref, geometry.z_ref],
+        moment_point: moment_point(inputs, notes),
         drag: case.aerodynamics.drag,
     };
-    check_moment_point(inputs, notes);
     let (mut rigid, controls, avl_reference) = from_avl(&inputs.derivatives, &avl_options)?;
     let reference = case.reference.map_or(avl_reference, |r| ReferenceShape {
         area: r.area,
@@ -308,21 +307,26 @@ fn assemble(
     })
 }
 
-/// The .st file prints its moment point to five digits: the geometry file's is used if they agree so far.
-fn check_moment_point(inputs: &Inputs, notes: &mut Vec<String>) {
+/// The moment point of the AVL run. The .st file prints it to five digits: the geometry file adds the rest where the
+/// two agree so far, else the run's own (a .run file may have moved it) holds.
+fn moment_point(inputs: &Inputs, notes: &mut Vec<String>) -> [f64; 3] {
     let printed = &inputs.derivatives.run.reference;
     let geometry = &inputs.geometry;
-    for (axis, printed, exact) in [
+    let axes = [
         ("Xref", printed.x_ref, geometry.x_ref),
+        ("Yref", printed.y_ref, geometry.y_ref),
         ("Zref", printed.z_ref, geometry.z_ref),
-    ] {
-        if (printed - exact).abs() > 1e-4 * exact.abs().max(1.0) {
-            notes.push(format!(
-                "{axis} is {printed} in the .st file and {exact} in the geometry file; the geometry file's is used: \
-                 check that the two belong together"
-            ));
+    ];
+    axes.map(|(axis, printed, exact)| {
+        if (printed - exact).abs() <= 1e-4 * exact.abs().max(1.0) {
+            return exact;
         }
-    }
+        notes.push(format!(
+            "{axis} is {printed} in the .st file and {exact} in the geometry file; that of the .st file is used: \
+             check that the two belong together"
+        ));
+        printed
+    })
 }
 
 fn engines(
@@ -331,8 +335,15 @@ fn engines(
     basis: &ModalBasis,
     mass: &MassProperties,
 ) -> Result<Vec<Engine>, Error> {
-    if variant.thrust_line == ThrustLine::ThroughCg || inputs.case.engines.is_empty() {
+    if variant.thrust_line == ThrustLine::ThroughCg {
         return Ok(vec![Engine::through_cg()]);
+    }
+    if inputs.case.engines.is_empty() {
+        return Err(Error::Mismatch {
+            what: format!("variant `{}`: thrust_line = \"engines\"", variant.name),
+            found: "no engine in the case".into(),
+            expected: "an [[engine]] with a grid, or thrust_line = \"through_cg\"".into(),
+        });
     }
     let total: f64 = inputs.case.engines.iter().map(|e| e.share).sum();
     if (total - 1.0).abs() > 1e-9 {

@@ -170,6 +170,16 @@ pub fn longitudinal(text: &str, file: &str) -> Result<LongitudinalCorrections, E
         message,
         expected: expected.to_owned(),
     };
+    let keys = ["CL0", "CLa", "CLq", "CLde", "Cm0", "Cma", "Cmq", "Cmde"];
+    if let Ok(serde_json::Value::Object(map)) = serde_json::from_str(text) {
+        let misspelt = |name: &&String| keys.iter().any(|k| k != name && k.eq_ignore_ascii_case(name));
+        if let Some(name) = map.keys().find(misspelt) {
+            return Err(table(
+                0,
+                format!("the key `{name}` differs from a derivative's by its capitals"),
+            ));
+        }
+    }
     let corrections: LongitudinalCorrections =
         serde_json::from_str(text).map_err(|e| table(e.line(), e.to_string()))?;
     if corrections == LongitudinalCorrections::default() {

@@ -68,7 +68,7 @@ fn modes_of_case(case: &Path) -> Result<BasisAndModes, Failure> {
 /// Modes of a deck and its results alone, without damping; elastic ones, all or as many as asked for.
 fn modes_of_files(deck: &Path, results: &Path, how_many: Option<usize>) -> Result<BasisAndModes, Failure> {
     let (deck, _) = albatross::nastran::bdf::read_strict(deck).map_err(albatross::Error::from)?;
-    let results = albatross::nastran::f06::read(results).map_err(albatross::Error::from)?;
+    let results = albatross::inputs::read_results(results)?;
     let choice = BasisOptions {
         modes: how_many.map_or(Selection::All, Selection::FirstElastic),
         on_violation: OnViolation::Accept,

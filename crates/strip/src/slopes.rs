@@ -143,6 +143,13 @@ pub fn from_avl(
             });
         }
     }
+    if !records.is_empty() && records.iter().all(|r| r.cl_alpha == 0.0) {
+        return Err(Error::StripTables {
+            what: "lift slopes of the strips".into(),
+            found: "no strip's lift changes between the two files".into(),
+            expected: "runs at two incidences; is one file named twice?".into(),
+        });
+    }
     Ok(records)
 }
 

@@ -355,6 +355,11 @@ impl BodeCase {
     }
 }
 
+/// Most frequencies of a response: each costs about 0.3 ms.
+const MOST_FREQUENCIES: usize = 100_000;
+/// Files that a run writes beside those of the manoeuvres.
+const RESULT_FILES: [&str; 5] = ["modes", "strips", "bode", "modes_elastic", "modes_rigid_body"];
+
 /// Method of integration where a manoeuvre names none.
 pub(crate) fn default_method() -> Method {
     Method::Rk4
@@ -444,6 +449,21 @@ impl Case {
                 );
             }
         }
+        let mut surfaces: Vec<&str> = self.aerodynamics.surfaces.iter().map(|s| s.name.trim()).collect();
+        surfaces.sort_unstable();
+        if let Some(pair) = surfaces.windows(2).find(|w| w[0].eq_ignore_ascii_case(w[1])) {
+            return refuse(
+                format!("surface `{}` is listed twice", pair[0]),
+                "list it once: its strips would count twice",
+            );
+        }
+        if self.bode.points > MOST_FREQUENCIES {
+            return refuse(
+                format!("[bode] points is {}", self.bode.points),
+                "give 100000 or fewer",
+            );
+        }
+        self.check_manoeuvre_names(file)?;
         let b = self.bode;
         if !(b.from_rad_s > 0.0 && b.to_rad_s > b.from_rad_s && b.to_rad_s.is_finite() && b.points >= 2) {
             return refuse(
@@ -458,6 +478,32 @@ impl Case {
                 format!("two variants are named `{}`", pair[0]),
                 "rename one of them",
             );
+        }
+        Ok(())
+    }
+
+    /// Names of manoeuvres become names of files.
+    fn check_manoeuvre_names(&self, file: &str) -> Result<(), Error> {
+        let mut names: Vec<&str> = Vec::new();
+        for manoeuvre in &self.manoeuvres {
+            let name = manoeuvre.name.as_str();
+            let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+            let message = if name.is_empty() || name.starts_with('.') || !name.chars().all(plain) {
+                format!("the manoeuvre name `{name}` cannot be the name of a file")
+            } else if RESULT_FILES.contains(&name) {
+                format!("the manoeuvre name `{name}` is that of another result")
+            } else if names.contains(&name) {
+                format!("two manoeuvres are named `{name}`")
+            } else {
+                names.push(name);
+                continue;
+            };
+            return Err(Error::Case {
+                file: file.to_owned(),
+                line: 0,
+                message,
+                cure: "use another name of letters, digits, `_`, `-` and `.`".into(),
+            });
         }
         Ok(())
     }
