@@ -330,6 +330,56 @@ fn val_case_errors_name_place_and_cure() {
 }
 
 #[test]
+fn regress_case_choices_that_would_mislead_are_refused() {
+    let message = |from: &str, to: &str| changed(from, to).unwrap_err().to_string();
+    let twice = message("name = \"HTP\"", "name = \"Wing\"");
+    assert!(twice.contains("listed twice"), "{twice}");
+    let path = message("name = \"doublet_3Hz\"", "name = \"../doublet_3Hz\"");
+    assert!(path.contains("../doublet_3Hz"), "{path}");
+    let same = message("name = \"doublet_3Hz\"", "name = \"doublet_10Hz\"");
+    assert!(same.contains("two manoeuvres"), "{same}");
+    let many = message("points = 600", "points = 1000000000000000");
+    assert!(many.contains("100000"), "{many}");
+
+    let mut inputs = inputs();
+    inputs.case.engines.clear();
+    let variant = inputs.case.variant(Some("engines_in_place")).unwrap();
+    assert!(
+        Model::build(&inputs, &variant)
+            .unwrap_err()
+            .to_string()
+            .contains("[[engine]]")
+    );
+    inputs.strips[1] = inputs.strips[0].clone();
+    let variant = inputs.case.variant(None).unwrap();
+    assert!(
+        Model::build(&inputs, &variant)
+            .unwrap_err()
+            .to_string()
+            .contains("named twice")
+    );
+}
+
+/// A rigid variant has rigid-body modes and no others.
+#[test]
+fn regress_mode_table_of_a_rigid_variant() {
+    let inputs = inputs();
+    let mut variant = inputs.case.variant(None).unwrap();
+    variant.fidelity = Fidelity::Rigid;
+    let model = Model::build(&inputs, &variant).unwrap();
+    let table = analysis::mode_table_without_lags(&model, &analysis::trimmed(&model).unwrap()).unwrap();
+    assert!(table.elastic.is_empty());
+    for mode in &table.rigid_body {
+        let flexible = mode.flexible.as_ref().unwrap();
+        assert!(
+            (flexible.omega_rad_s - mode.rigid.omega_rad_s).abs() < 1e-9,
+            "{}",
+            mode.name
+        );
+    }
+}
+
+#[test]
 fn val_unknown_grid_is_named() {
     let mut inputs = inputs();
     inputs.case.sensors[5].grid = Some(3999);
