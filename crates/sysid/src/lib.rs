@@ -3,10 +3,12 @@
 pub mod arx;
 pub mod convert;
 pub mod data;
+mod decimate;
 pub mod discrete;
 mod error;
 pub mod iv4;
 mod logarithm;
+pub mod subspace;
 mod triangle;
 
 pub use data::{DataSet, Experiment, Intersample};
