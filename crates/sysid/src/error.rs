@@ -110,6 +110,40 @@ pub enum Error {
         /// What went wrong with the last one, and the cure.
         reason: String,
     },
+    /// A record is too short for the block rows of a subspace method.
+    #[error(
+        "{experiment}: {samples} samples{after} are too few for {poles} poles with a horizon of {horizon} samples, which needs {needed}: add data, lower the order or give a smaller horizon"
+    )]
+    ShortRecord {
+        /// Name of the experiment, or all of them.
+        experiment: String,
+        /// Samples that there are.
+        samples: usize,
+        /// Empty, or by what factor they were thinned.
+        after: String,
+        /// Poles asked for.
+        poles: usize,
+        /// Block rows.
+        horizon: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// A discrete-time pole without a real logarithm.
+    #[error(
+        "the discrete pole at {pole} has no real logarithm: a pole at zero is a delay, a simple negative one can be doubled"
+    )]
+    NoLogarithm {
+        /// The pole in the z plane.
+        pole: f64,
+    },
+    /// A logarithm of a matrix whose exponential is another matrix.
+    #[error(
+        "the continuous model does not reproduce the discrete one (difference {error:.1e}): poles near zero or nearly multiple on the negative real axis cannot be converted"
+    )]
+    Conversion {
+        /// Largest difference of an entry.
+        error: f64,
+    },
     /// From linear systems.
     #[error(transparent)]
     Lti(#[from] albatross_lti::Error),
