@@ -9,8 +9,8 @@ use crate::refine::{Iteration, Refined, Search, SearchMethod, Stop, refine, tota
 use crate::relocate::{Sweeps, reflected, relocate};
 use crate::score::{self, InitialState};
 use crate::start::{self, Start};
-use crate::uncertainty::Uncertainty;
 use crate::subspace::{self, SubspaceOptions};
+use crate::uncertainty::Uncertainty;
 use crate::{DataSet, Error, Model, Result};
 
 /// What is assumed of the state at the first sample.
@@ -246,7 +246,10 @@ fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
     let mut won: Option<(usize, Refined)> = None;
     for (start, fitted) in candidates.into_iter().take(options.refined.max(1)) {
         // Relocation may have looked at a part of the samples.
-        let refined = match problem.fit(fitted.point, 1).and_then(|f| refine(&problem, f, search)) {
+        let refined = match problem
+            .fit(fitted.point, 1)
+            .and_then(|f| refine(&problem, f, search))
+        {
             Ok(refined) => refined,
             Err(error) => {
                 last_failure = error.to_string();
@@ -327,7 +330,9 @@ fn begin(problem: &Problem<'_>, options: &Options, start: &Start) -> Result<Fitt
             };
             match start {
                 Start::Filters { .. } => relocated(point, 1, 1),
-                Start::Spread { instruments: true, .. } => relocated(point, SWEEPS, PLAIN),
+                Start::Spread {
+                    instruments: true, ..
+                } => relocated(point, SWEEPS, PLAIN),
                 _ => relocated(point, SWEEPS, SWEEPS),
             }
         }
@@ -363,7 +368,8 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
         });
     }
     for experiment in &data.experiments {
-        let signals = std::iter::once((&data.input, &experiment.input)).chain(data.outputs.iter().zip(&experiment.outputs));
+        let signals = std::iter::once((&data.input, &experiment.input))
+            .chain(data.outputs.iter().zip(&experiment.outputs));
         for (signal, values) in signals {
             let first = values.first().copied().unwrap_or(0.0);
             if values.iter().all(|v| *v == first) {
@@ -484,10 +490,17 @@ fn finish(problem: &Problem<'_>, options: &Options, won: Won) -> Result<Estimate
 }
 
 /// Share of the fitted modes that may be doubtful before the order as a whole is called too large.
-fn warnings(problem: &Problem<'_>, won: &Won, model: &Model, uncertainty: Option<&Uncertainty>) -> Vec<String> {
+fn warnings(
+    problem: &Problem<'_>,
+    won: &Won,
+    model: &Model,
+    uncertainty: Option<&Uncertainty>,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     if won.refined.stop == Stop::Iterations {
-        warnings.push("the search ended at the greatest number of iterations: raise it, or lower the order".to_owned());
+        warnings.push(
+            "the search ended at the greatest number of iterations: raise it, or lower the order".to_owned(),
+        );
     }
     let nyquist = std::f64::consts::PI / problem.data.dt();
     let beyond = model.poles().iter().filter(|p| p.im > nyquist).count();
@@ -511,8 +524,17 @@ fn warnings(problem: &Problem<'_>, won: &Won, model: &Model, uncertainty: Option
         }
     }
     let blocks: &[Block] = &model.blocks;
-    let longest = problem.data.experiments.iter().map(|e| e.duration()).fold(0.0, f64::max);
-    let slow = blocks.iter().flat_map(|b| b.poles()).filter(|p| p.norm() * longest < 0.5 * std::f64::consts::PI).count();
+    let longest = problem
+        .data
+        .experiments
+        .iter()
+        .map(|e| e.duration())
+        .fold(0.0, f64::max);
+    let slow = blocks
+        .iter()
+        .flat_map(|b| b.poles())
+        .filter(|p| p.norm() * longest < 0.5 * std::f64::consts::PI)
+        .count();
     if slow > 0 {
         warnings.push(format!(
             "{slow} poles are so slow that the longest record ({longest:.3} s) holds less than a quarter of their period: they stand for drift"

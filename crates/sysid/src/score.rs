@@ -47,7 +47,11 @@ pub struct Simulated {
 /// another number of outputs.
 pub fn simulate_records(model: &Model, data: &DataSet, estimate_initial: bool) -> Result<Vec<Simulated>> {
     if model.outputs.len() != data.outputs.len() {
-        return Err(crate::data::mismatch("outputs of the data", data.outputs.len(), model.outputs.len()));
+        return Err(crate::data::mismatch(
+            "outputs of the data",
+            data.outputs.len(),
+            model.outputs.len(),
+        ));
     }
     data.experiments
         .iter()
@@ -55,7 +59,12 @@ pub fn simulate_records(model: &Model, data: &DataSet, estimate_initial: bool) -
         .collect()
 }
 
-fn simulate_record(model: &Model, data: &DataSet, experiment: &Experiment, estimate_initial: bool) -> Result<Simulated> {
+fn simulate_record(
+    model: &Model,
+    data: &DataSet,
+    experiment: &Experiment,
+    estimate_initial: bool,
+) -> Result<Simulated> {
     let mut outputs = model.simulate(&experiment.input, experiment.dt, data.intersample)?;
     let mut columns = if estimate_initial {
         model.free_motions(experiment)?
@@ -83,7 +92,11 @@ fn simulate_record(model: &Model, data: &DataSet, experiment: &Experiment, estim
         }
         initial.push(initial_state(&local, estimate_initial, model.order()));
     }
-    let fits = outputs.iter().zip(&experiment.outputs).map(|(model, measured)| nrmse_fit(measured, model)).collect();
+    let fits = outputs
+        .iter()
+        .zip(&experiment.outputs)
+        .map(|(model, measured)| nrmse_fit(measured, model))
+        .collect();
     Ok(Simulated {
         experiment: experiment.name.clone(),
         outputs,

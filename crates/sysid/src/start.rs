@@ -6,10 +6,10 @@
 
 use std::f64::consts::PI;
 
+use crate::DataSet;
 use crate::blocks::Block;
 use crate::estimate::{Delay, Initialisation, Options};
 use crate::spectrum::{continued_spectrum, log_grid};
-use crate::DataSet;
 
 /// One start.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +42,14 @@ impl Start {
     pub(crate) fn description(&self) -> String {
         let band = |b: &[f64; 2]| format!("poles spread over {:.3} to {:.3} rad/s", b[0], b[1]);
         let name = match self {
-            Self::Spread { instruments, band: b, .. } => {
-                let how = if *instruments { "instrumental variables" } else { "least squares" };
+            Self::Spread {
+                instruments, band: b, ..
+            } => {
+                let how = if *instruments {
+                    "instrumental variables"
+                } else {
+                    "least squares"
+                };
                 format!("{}, {how}", band(b))
             }
             Self::Filters { band: b, .. } => format!("state-variable filters, {}", band(b)),
@@ -71,7 +77,12 @@ pub(crate) fn all(data: &DataSet, options: &Options) -> Vec<Start> {
         .flat_map(|&delay| {
             let filters = || {
                 spread(delay).into_iter().filter_map(|s| match s {
-                    Start::Spread { blocks, instruments: true, band, delay } => Some(Start::Filters { blocks, band, delay }),
+                    Start::Spread {
+                        blocks,
+                        instruments: true,
+                        band,
+                        delay,
+                    } => Some(Start::Filters { blocks, band, delay }),
                     _ => None,
                 })
             };
@@ -140,7 +151,11 @@ fn blocks(poles: usize, [low, high]: [f64; 2], damping: f64) -> Vec<Block> {
     let pairs = poles / 2;
     let mut blocks: Vec<Block> = (0..pairs)
         .map(|i| {
-            let share = if pairs > 1 { i as f64 / (pairs - 1) as f64 } else { 0.5 };
+            let share = if pairs > 1 {
+                i as f64 / (pairs - 1) as f64
+            } else {
+                0.5
+            };
             let w = low * (high / low).powf(share);
             Block::Second {
                 a1: 2.0 * damping * w,

@@ -123,8 +123,15 @@ struct NumeratorMap {
 
 impl Uncertainty {
     /// From the residuals of a fitted point; none when the sensitivities are not finite or there are no spare samples.
-    pub(crate) fn of(problem: &Problem<'_>, fitted: &Fitted, predicted: &[Vec<Vec<f64>>]) -> Result<Option<Self>> {
-        let (n_shared, n_own) = (fitted.point.blocks.iter().map(|b| b.order()).sum::<usize>() + usize::from(problem.free_delay), fitted.unknowns.own.first().map_or(0, Vec::len));
+    pub(crate) fn of(
+        problem: &Problem<'_>,
+        fitted: &Fitted,
+        predicted: &[Vec<Vec<f64>>],
+    ) -> Result<Option<Self>> {
+        let (n_shared, n_own) = (
+            fitted.point.blocks.iter().map(|b| b.order()).sum::<usize>() + usize::from(problem.free_delay),
+            fitted.unknowns.own.first().map_or(0, Vec::len),
+        );
         let n_outputs = problem.outputs();
         let n_local: usize = fitted.unknowns.local.iter().flatten().map(Vec::len).sum();
         let unknowns = n_shared + n_outputs * n_own + n_local;
@@ -138,7 +145,7 @@ impl Uncertainty {
         let ring = problem.ring(&bank, problem.free_initial, true);
         let mut triangles = Vec::new();
         // J'SJ for white and for coloured residuals.
-        let mut meat = [Mat::zeros(unknowns, unknowns), Mat::zeros(unknowns, unknowns)];
+        let mut meat: [Mat<f64>; 2] = std::array::from_fn(|_| Mat::zeros(unknowns, unknowns));
         let mut residual_sd = vec![Vec::new(); n_outputs];
         let mut at_local = n_shared + n_outputs * n_own;
         for (o, sd) in residual_sd.iter_mut().enumerate() {
@@ -146,10 +153,19 @@ impl Uncertainty {
                 let forced = bank.respond(&experiment.input, true);
                 let columns = Columns {
                     local: problem.local(e, &ring),
-                    own: problem.own(e, forced.x.clone(), &fitted.freedom, problem.timing(fitted.point.delay)),
+                    own: problem.own(
+                        e,
+                        forced.x.clone(),
+                        &fitted.freedom,
+                        problem.timing(fitted.point.delay),
+                    ),
                     shared: problem.shared(fitted, e, o, &forced, &ring),
                 };
-                let residual: Vec<f64> = experiment.outputs[o].iter().zip(&predicted[e][o]).map(|(y, p)| y - p).collect();
+                let residual: Vec<f64> = experiment.outputs[o]
+                    .iter()
+                    .zip(&predicted[e][o])
+                    .map(|(y, p)| y - p)
+                    .collect();
                 let factor = problem.factors[o][e];
                 let variance = residual.iter().map(|r| r * r).sum::<f64>() / (residual.len() as f64 * spare);
                 sd.push(variance.sqrt());
@@ -181,7 +197,10 @@ impl Uncertainty {
             let all = &inverse * m * &inverse;
             all.submatrix(0, 0, keep, keep).to_owned()
         });
-        if covariance.iter().any(|c| albatross_numerics::matrix::check_finite("the covariance", c.as_ref()).is_err()) {
+        if covariance
+            .iter()
+            .any(|c| albatross_numerics::matrix::check_finite("the covariance", c.as_ref()).is_err())
+        {
             return Ok(None);
         }
         let numerators = (0..n_outputs)
@@ -248,14 +267,19 @@ impl Uncertainty {
             .iter()
             .zip(&model.outputs)
             .filter(|(zeros, _)| {
-                let nearest = zeros.iter().map(|z| (z - pole).norm()).fold(f64::INFINITY, f64::min);
+                let nearest = zeros
+                    .iter()
+                    .map(|z| (z - pole).norm())
+                    .fold(f64::INFINITY, f64::min);
                 nearest < (3.0 * spread).min(0.05 * modulus).max(1e-3 * modulus)
             })
             .map(|(_, output)| output.name.clone())
             .collect();
         let sd_frequency = sd(0, &frequency);
         let identified = sd_frequency <= LARGEST_RELATIVE_SD * modulus
-            && residues.iter().any(|r| r.modulus > LEAST_RESIDUE_SD * r.sd_modulus);
+            && residues
+                .iter()
+                .any(|r| r.modulus > LEAST_RESIDUE_SD * r.sd_modulus);
         PoleEstimate {
             re: pole.re,
             im: pole.im,
@@ -279,7 +303,11 @@ impl Uncertainty {
         let w = block.scale();
         // Value, derivatives with respect to c, and with respect to the block's own parameters.
         let (value, by_c, by_p): (C64, Vec<C64>, Vec<C64>) = match block {
-            Block::First { .. } => (C64::new(c[0] * w, 0.0), vec![C64::new(w, 0.0)], vec![C64::new(0.0, 0.0)]),
+            Block::First { .. } => (
+                C64::new(c[0] * w, 0.0),
+                vec![C64::new(w, 0.0)],
+                vec![C64::new(0.0, 0.0)],
+            ),
             Block::Second { a1, .. } => {
                 let slope = 2.0 * pole + a1;
                 let numerator = c[0] * w * w + c[1] * w * pole;
@@ -295,7 +323,13 @@ impl Uncertainty {
             }
         };
         let modulus = value.norm();
-        let along = |d: C64| if modulus > 0.0 { (value.conj() * d).re / modulus } else { d.norm() };
+        let along = |d: C64| {
+            if modulus > 0.0 {
+                (value.conj() * d).re / modulus
+            } else {
+                d.norm()
+            }
+        };
         let mut gradient = vec![0.0; self.covariance[0].nrows()];
         for (i, d) in by_p.iter().enumerate() {
             gradient[at + i] += along(*d);
@@ -409,7 +443,11 @@ fn pole_derivative(block: Block, pole: C64) -> Vec<C64> {
             // D(p) = 0: dp = -(p da1 + da0)/(2 p + a1). At a double pole the slope vanishes: a finite stand-in.
             let slope = 2.0 * pole + a1;
             let least = 1e-8 * a0.abs().sqrt().max(a1.abs());
-            let slope = if slope.norm() < least { C64::new(least, 0.0) } else { slope };
+            let slope = if slope.norm() < least {
+                C64::new(least, 0.0)
+            } else {
+                slope
+            };
             vec![-w * pole / slope, -w * w / slope]
         }
     }
@@ -466,7 +504,11 @@ fn coloured(j: &Mat<f64>, residual: &[f64], factor: f64) -> Mat<f64> {
     let lags = ((4.0 * (n as f64).powf(LAGS_EXPONENT)) as usize).min(n.saturating_sub(1));
     let autocorrelation: Vec<f64> = (0..=lags)
         .map(|lag| {
-            let sum: f64 = residual.iter().zip(residual.iter().skip(lag)).map(|(a, b)| a * b).sum();
+            let sum: f64 = residual
+                .iter()
+                .zip(residual.iter().skip(lag))
+                .map(|(a, b)| a * b)
+                .sum();
             let taper = 1.0 - lag as f64 / (lags + 1) as f64;
             taper * factor * factor * sum / n as f64
         })

@@ -1,0 +1,5 @@
+//! Tests of the estimation as a whole.
+
+mod order20;
+mod rao_garnier;
+mod systems;
