@@ -144,9 +144,9 @@ pub(crate) mod tests {
         (pairs, cost)
     }
 
-    /// The example of J. Munkres's algorithm in common textbooks: jobs 250-400-350, 400-600-350, 200-400-250 cost 950.
+    /// By hand, the sums of the six permutations: 1100, 1000, 1050, 950, 1150, 1150.
     #[test]
-    fn val_textbook_example() {
+    fn val_six_permutations() {
         let costs: Vec<Vec<Option<f64>>> = [
             [250.0, 400.0, 350.0],
             [400.0, 600.0, 350.0],

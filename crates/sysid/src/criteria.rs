@@ -2,7 +2,7 @@
 //!
 //! With the mean square residual `V` of `N` samples and `d` estimated parameters, Gaussian residuals assumed white:
 //! ```text
-//! FPE  = V (1 + d/N)/(1 - d/N)                    Ljung, System Identification, 1999, Eq. 16.32
+//! FPE  = V (1 + d/N)/(1 - d/N)                    Ljung, System Identification, 1999, sec. 16.4
 //! AIC  = N (ln V + ln 2 pi + 1) + 2 d             Akaike, IEEE Trans. Autom. Control 19, 1974
 //! AICc = AIC + 2 d (d + 1)/(N - d - 1)            Hurvich & Tsai, Biometrika 76, 1989
 //! BIC  = N (ln V + ln 2 pi + 1) + d ln N          Schwarz, Ann. Statist. 6, 1978
