@@ -35,7 +35,6 @@
 
 pub mod analysis;
 pub mod case;
-pub mod compare;
 pub mod controls;
 pub mod inputs;
 pub mod model;
@@ -53,6 +52,7 @@ pub use albatross_nastran as nastran;
 pub use albatross_numerics as numerics;
 pub use albatross_report as report;
 pub use albatross_strip as strip;
+pub use albatross_sysid as sysid;
 pub use case::Case;
 pub use error::Error;
 pub use inputs::Inputs;

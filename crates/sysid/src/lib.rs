@@ -1,8 +1,11 @@
 //! Identification of continuous-time transfer functions from time histories.
 
 pub mod arx;
+pub mod assignment;
 mod blocks;
+pub mod bode_distance;
 pub mod convert;
+pub mod criteria;
 pub mod data;
 mod decimate;
 pub mod discrete;
@@ -10,29 +13,38 @@ mod elimination;
 mod error;
 pub mod estimate;
 mod filters;
-mod fit;
+pub mod fit;
+mod fourier;
 pub mod iv4;
 mod logarithm;
-mod model;
+pub mod matching;
+pub mod model;
 mod numerator;
+pub mod peaks;
 mod problem;
-mod refine;
+pub mod refine;
 mod relocate;
-mod score;
+pub mod residuals;
+pub mod response_peaks;
+pub mod score;
 mod spectrum;
 mod start;
 pub mod subspace;
 mod triangle;
-mod uncertainty;
+pub mod uncertainty;
 
 pub use blocks::Block;
+pub use bode_distance::{Band, BodeDistance, bode_distance, energy_spectrum, state_space_distance};
+pub use criteria::{Criteria, criteria};
 pub use data::{DataSet, Experiment, Intersample};
 pub use error::{Error, Result};
-pub use estimate::{
-    Delay, Estimate, InitialCondition, Initialisation, Options, StartReport, Weights, estimate,
-};
-pub use fit::nrmse_fit;
+pub use estimate::{Delay, Estimate, InitialCondition, Initialisation, Options, Weights, estimate};
+pub use fit::{from_trim, nrmse_fit};
+pub use matching::{MatchOptions, PoleMatching, match_poles};
 pub use model::Model;
+pub use peaks::{Peak, peaks};
 pub use refine::{Iteration, SearchMethod, Stop};
+pub use residuals::{ResidualCheck, ResidualOptions, check_residual, check_residuals};
+pub use response_peaks::{ResponsePeak, ResponsePeakMatching, match_response_peaks, response_peaks};
 pub use score::{InitialState, Simulated, simulate_records};
-pub use uncertainty::{Band, PoleEstimate, Residue, Uncertainty};
+pub use uncertainty::{ConfidenceBand, PoleEstimate, Residue, Uncertainty};

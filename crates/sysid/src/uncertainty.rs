@@ -99,7 +99,7 @@ pub struct Uncertainty {
 
 /// Magnitude and phase of a response with their standard deviations.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Band {
+pub struct ConfidenceBand {
     /// Angular frequencies \[rad/s\].
     pub omega_rad_s: Vec<f64>,
     /// Response.
@@ -350,7 +350,7 @@ impl Uncertainty {
     ///
     /// # Errors
     /// [`crate::Error::Mismatch`] for an output that is not there.
-    pub fn band(&self, model: &Model, output: usize, omega_rad_s: &[f64], coloured: bool) -> Result<Band> {
+    pub fn band(&self, model: &Model, output: usize, omega_rad_s: &[f64], coloured: bool) -> Result<ConfidenceBand> {
         let response = model.frequency_response(output, omega_rad_s)?;
         let c = &model.coefficients[output];
         let map = &self.numerators[output];
@@ -397,7 +397,7 @@ impl Uncertainty {
             sd_magnitude_db.push(20.0 / std::f64::consts::LN_10 * sd(&real));
             sd_phase_deg.push(sd(&imaginary).to_degrees());
         }
-        Ok(Band {
+        Ok(ConfidenceBand {
             omega_rad_s: omega_rad_s.to_vec(),
             response,
             sd_magnitude_db,

@@ -6,10 +6,10 @@ use crate::validate::reference::{QUANTITIES, Reference};
 use crate::validate::study::{STEP, Variant, fit};
 use albatross::Model;
 use albatross::analysis::Trimmed;
-use albatross::compare::from_trim;
 use albatross::flight::Quantity;
 use albatross::lti::{Hold, Mode, StateSpace, simulate};
 use albatross::numerics::{C64, Mat, eigen};
+use albatross::sysid::from_trim;
 
 /// Samples of the reference from one step of a linear simulation to the next; its exact step needs no shorter ones.
 pub(super) const EVERY: usize = 2;

@@ -7,7 +7,7 @@ use crate::validate::reference::QUANTITIES;
 use crate::validate::study::{Study, control_index};
 use albatross::flight::Trim;
 use albatross::report::{Cell, Column, Format, Table};
-use albatross::{Model, compare};
+use albatross::{Model, sysid};
 
 /// Turning points count as peaks if the series moves by this share of its range between them: the ripple that the
 /// elevator's own lift makes in `n_z` before the aircraft follows is passed over.
@@ -188,7 +188,7 @@ fn model_peaks(study: &Study, quantity: usize) -> Vec<Peaks> {
 fn peaks_of(time: &[f64], series: &[f64]) -> Peaks {
     Peaks {
         start: series.first().copied().unwrap_or(f64::NAN),
-        values: compare::peaks(time, series, PEAKS, PROMINENCE)
+        values: sysid::peaks(time, series, PEAKS, PROMINENCE)
             .iter()
             .map(|p| p.value)
             .collect(),
