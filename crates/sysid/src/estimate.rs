@@ -90,6 +90,8 @@ pub struct Options {
     pub iterations: usize,
     /// Relative improvement of the cost at which the search ends.
     pub tolerance: f64,
+    /// Whether standard deviations are computed.
+    pub uncertainty: bool,
 }
 
 impl Options {
@@ -109,6 +111,7 @@ impl Options {
             refined: 2,
             iterations: 60,
             tolerance: 1e-8,
+            uncertainty: true,
         }
     }
 }
@@ -468,11 +471,15 @@ fn finish(problem: &Problem<'_>, options: &Options, won: Won) -> Result<Estimate
                 .collect()
         })
         .collect();
-    let uncertainty = match Uncertainty::of(problem, fitted, &predicted)? {
-        Some(found) => Some(found.with_modes(&model)?),
-        None => None,
+    let uncertainty = if options.uncertainty {
+        match Uncertainty::of(problem, fitted, &predicted)? {
+            Some(found) => Some(found.with_modes(&model)?),
+            None => None,
+        }
+    } else {
+        None
     };
-    let warnings = warnings(problem, &won, &model, uncertainty.as_ref());
+    let warnings = warnings(problem, options, &won, &model, uncertainty.as_ref());
     Ok(Estimate {
         cost: fitted.cost() / total(problem),
         initial_estimated: problem.free_initial,
@@ -510,6 +517,7 @@ fn warnings(
         ));
     }
     match uncertainty {
+        None if !options.uncertainty => {}
         None => warnings.push(
             "the data do not determine all parameters (the information matrix is singular): the order is larger than they can carry; lower it, or add records".to_owned(),
         ),

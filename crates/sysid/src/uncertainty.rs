@@ -350,7 +350,13 @@ impl Uncertainty {
     ///
     /// # Errors
     /// [`crate::Error::Mismatch`] for an output that is not there.
-    pub fn band(&self, model: &Model, output: usize, omega_rad_s: &[f64], coloured: bool) -> Result<ConfidenceBand> {
+    pub fn band(
+        &self,
+        model: &Model,
+        output: usize,
+        omega_rad_s: &[f64],
+        coloured: bool,
+    ) -> Result<ConfidenceBand> {
         let response = model.frequency_response(output, omega_rad_s)?;
         let c = &model.coefficients[output];
         let map = &self.numerators[output];
