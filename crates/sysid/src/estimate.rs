@@ -499,6 +499,7 @@ fn finish(problem: &Problem<'_>, options: &Options, won: Won) -> Result<Estimate
 /// Share of the fitted modes that may be doubtful before the order as a whole is called too large.
 fn warnings(
     problem: &Problem<'_>,
+    options: &Options,
     won: &Won,
     model: &Model,
     uncertainty: Option<&Uncertainty>,

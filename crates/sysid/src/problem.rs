@@ -325,7 +325,7 @@ fn derivatives(block: Block, signals: &Signals, at: usize, c: &[f64], into: &mut
             let (f1, f0) = (a1 / w, a0 / (w * w));
             let (first, second) = into.split_at_mut(1);
             let states = signals.x[at].iter().zip(&signals.r[at]).zip(&signals.r[at + 1]);
-            for (((a1, a0), ((x1, r1), r2))) in first[0].iter_mut().zip(&mut second[0]).zip(states) {
+            for ((a1, a0), ((x1, r1), r2)) in first[0].iter_mut().zip(&mut second[0]).zip(states) {
                 // (w s/D) y_i and (w^2/D) y_i.
                 *a1 -= c1 * r2 + c2 * (x1 - f1 * r2 - f0 * r1);
                 *a0 -= c1 * r1 + c2 * r2;
