@@ -4,7 +4,9 @@ use albatross_numerics::C64;
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{Block, from_poles, order};
+use crate::data::mismatch;
 use crate::problem::{Fitted, Point, Problem};
+use crate::reallocate::{Scan, reallocate};
 use crate::refine::{Iteration, Refined, Search, SearchMethod, Stop, refine, total};
 use crate::relocate::{Sweeps, reflected, relocate};
 use crate::score::{self, InitialState};
@@ -26,7 +28,7 @@ pub enum InitialCondition {
 }
 
 /// How starting poles are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Initialisation {
     /// Refined instrumental variables in the basis of the poles.
@@ -37,6 +39,8 @@ pub enum Initialisation {
     Subspace,
     /// All of them; the best goes on.
     All,
+    /// These factors of the denominator, of a model at hand; as many poles as asked for.
+    Given(Vec<Block>),
 }
 
 /// Transport delay of the input.
@@ -88,6 +92,8 @@ pub struct Options {
     pub refined: usize,
     /// Most iterations of a search.
     pub iterations: usize,
+    /// Most poles that are moved to another place after the search.
+    pub reallocations: usize,
     /// Relative improvement of the cost at which the search ends.
     pub tolerance: f64,
     /// Whether standard deviations are computed.
@@ -110,7 +116,8 @@ impl Options {
             seed: 0,
             refined: 2,
             iterations: 60,
-            tolerance: 1e-8,
+            reallocations: 8,
+            tolerance: 1e-6,
             uncertainty: true,
         }
     }
@@ -269,12 +276,19 @@ fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
             won = Some((start, refined));
         }
     }
-    let (chosen, refined) = won.ok_or_else(|| Error::NoModel {
+    let (chosen, mut refined) = won.ok_or_else(|| Error::NoModel {
         poles: options.poles,
         zeros: options.zeros,
         starts: reports.len(),
         reason: format!("{last_failure}; lower the order, or check the data for drift and saturation"),
     })?;
+    if options.reallocations > 0 && refined.stop != Stop::Exact {
+        let scan = Scan::new(&problem)?;
+        refined = reallocate(&problem, refined, search, options.reallocations, &scan)?;
+        if let Some(report) = reports.get_mut(chosen) {
+            report.refined = Some(refined.fitted.cost() / total);
+        }
+    }
     Ok(Won {
         refined,
         starts: reports,
@@ -282,9 +296,19 @@ fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
     })
 }
 
-/// Whether two starts led to the same minimum.
+/// Whether two starts led to the same neighbourhood: every coefficient of the denominators within a hundredth.
 fn same(a: &Fitted, b: &Fitted) -> bool {
-    (a.cost() - b.cost()).abs() <= 1e-6 * a.cost()
+    let near = |p: f64, q: f64, scale: f64| (p - q).abs() <= 0.01 * scale.abs();
+    let (a, b) = (&a.point, &b.point);
+    a.delay == b.delay
+        && a.blocks.len() == b.blocks.len()
+        && a.blocks.iter().zip(&b.blocks).all(|(p, q)| match (*p, *q) {
+            (Block::First { a: p }, Block::First { a: q }) => near(p, q, p),
+            (Block::Second { a1: p1, a0: p0 }, Block::Second { a1: q1, a0: q0 }) => {
+                near(p0, q0, p0) && near(p1, q1, p0.abs().sqrt())
+            }
+            _ => false,
+        })
 }
 
 /// Most sweeps of a relocation.
@@ -307,6 +331,13 @@ fn begin(problem: &Problem<'_>, options: &Options, start: &Start) -> Result<Fitt
         relocate(problem, point, sweeps)
     };
     match start {
+        Start::Given { blocks, delay } => problem.fit(
+            Point {
+                blocks: blocks.clone(),
+                delay: *delay,
+            },
+            stride,
+        ),
         Start::Subspace { .. } => {
             let settings = SubspaceOptions {
                 stable: options.stable,
@@ -359,6 +390,15 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
             zeros,
             expected: "at least one pole, and no more zeros than poles, are needed",
         });
+    }
+    if let Initialisation::Given(blocks) = &options.initialisation
+        && order(blocks) != poles
+    {
+        return Err(mismatch(
+            "poles of the starting denominator",
+            order(blocks),
+            poles,
+        ));
     }
     let limit = match options.delay {
         Delay::Fixed(delay) | Delay::UpTo(delay) => delay,

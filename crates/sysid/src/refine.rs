@@ -112,6 +112,11 @@ const HALVINGS: usize = 12;
 /// Share of the weighted sum of squares of the data that is rounding.
 const ROUNDING: f64 = 1e-27;
 
+/// Below this share of the tolerance even the last step is not worth its cost.
+const LAST_STEP: f64 = 1e-3;
+/// Poles slower than this share of a radian over the longest record are drift: no step leads further down.
+const SLOWEST: f64 = 1e-3;
+
 /// Searches from a fitted point.
 pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Result<Refined> {
     let total = total(problem);
@@ -138,7 +143,7 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
         }
         let decomposed = Decomposed::new(problem, &fitted)?;
         let expected = decomposed.explained() / fitted.cost();
-        if expected.is_nan() || expected < search.tolerance {
+        if expected.is_nan() || expected < LAST_STEP * search.tolerance {
             break Stop::Converged;
         }
         let Some(step) = descend(problem, &fitted, &decomposed, search, &mut memory) else {
@@ -153,6 +158,7 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
             halvings: step.halvings,
         });
         fitted = step.fitted;
+        // The step that promised next to nothing has been taken: it is free.
         if gain < search.tolerance {
             break Stop::Converged;
         }
@@ -371,9 +377,20 @@ fn try_step(problem: &Problem<'_>, from: &Fitted, step: &[f64], search: Search) 
 /// Where stability is asked for, no coefficient goes below a tenth of its value in one step: it can approach the
 /// boundary but not cross it.
 fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> Point {
-    let keep = |old: f64, change: f64| {
+    let slowest = SLOWEST
+        / problem
+            .data
+            .experiments
+            .iter()
+            .map(|e| e.duration())
+            .fold(0.0, f64::max);
+    let keep = |old: f64, change: f64, floor: f64| {
         let new = old + change;
-        if search.stable { new.max(0.1 * old) } else { new }
+        if search.stable {
+            new.max(0.1 * old).max(floor.min(old))
+        } else {
+            new
+        }
     };
     let mut values = step.iter().copied();
     let mut next = || values.next().unwrap_or(0.0);
@@ -384,11 +401,11 @@ fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> P
             let w = block.scale();
             match *block {
                 Block::First { a } => Block::First {
-                    a: keep(a, w * next()),
+                    a: keep(a, w * next(), slowest),
                 },
                 Block::Second { a1, a0 } => Block::Second {
-                    a1: keep(a1, w * next()),
-                    a0: keep(a0, w * w * next()),
+                    a1: keep(a1, w * next(), 0.0),
+                    a0: keep(a0, w * w * next(), slowest * slowest),
                 },
             }
         })

@@ -2,4 +2,5 @@
 
 mod order20;
 mod rao_garnier;
+mod real_data;
 mod systems;
