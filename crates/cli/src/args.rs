@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::identification::args::IdentifyCommand;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Bode(BodeOptions),
     /// Non-linear simulation of a manoeuvre.
     Simulate(SimulateOptions),
+    /// Transfer functions from time histories, with common poles, standard deviations and fits.
+    Identify(IdentifyCommand),
     /// A neutral wing model (JSON): matrices, flutter, divergence, as JSON.
     Wing {
         /// Model file; `-` reads standard input.

@@ -15,6 +15,9 @@ pub(crate) enum Failure {
     /// From tables and plots.
     #[error(transparent)]
     Report(#[from] albatross::report::ReportError),
+    /// From identification.
+    #[error(transparent)]
+    Sysid(#[from] albatross::sysid::Error),
     /// JSON could not be made.
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
