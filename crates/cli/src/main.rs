@@ -25,6 +25,8 @@ fn main() -> ExitCode {
         Command::Bode(options) => case::bode(options),
         Command::Simulate(options) => case::simulate(options),
         Command::Identify(options) => identification::identify(options),
+        Command::Compare(options) => identification::compare(options),
+        Command::Residuals(options) => identification::residuals(options),
         Command::Wing { file } => neutral::wing(file),
         Command::Aircraft { file } => neutral::aircraft(file),
     };

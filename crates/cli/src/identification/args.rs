@@ -178,6 +178,78 @@ pub(crate) struct EstimationOptions {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct CompareOptions {
+    /// The model: JSON of `identify` (model.json or its result) or of a state space (state_space.json or the result of
+    /// `linearize`).
+    pub(crate) model: PathBuf,
+    /// Records to simulate: tables of samples (CSV).
+    #[arg(value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Another model, of the same kinds: poles, frequency responses and their peaks are compared.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reference: Option<PathBuf>,
+    /// Input of the model and column of the records; the only input by default.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) input: Option<String>,
+    /// Output of the model and column of the records; may be repeated; all outputs of the model by default.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) output: Vec<String>,
+    /// Input of the reference, where it has another name.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) reference_input: Option<String>,
+    /// Outputs of the reference in the order of the model's, where they have other names.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) reference_output: Vec<String>,
+    /// Band of the comparison in rad/s.
+    #[arg(long, value_name = "LOW,HIGH", default_value = "0.1,95", value_parser = band)]
+    pub(crate) band: [f64; 2],
+    /// Largest difference of the frequencies of a pair in percent.
+    #[arg(long, value_name = "PERCENT", default_value_t = 15.0)]
+    pub(crate) gate: f64,
+    /// Least height of a peak of the magnitude above its valleys in dB.
+    #[arg(long, value_name = "DB", default_value_t = 1.0)]
+    pub(crate) prominence: f64,
+    /// Also compare poles that are real, overdamped, out of the band, or not seen in the outputs.
+    #[arg(long)]
+    pub(crate) all_poles: bool,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingOptions,
+    /// State of the model at the first sample of a record; that of the identification if the file tells, else zero.
+    #[arg(long, value_enum)]
+    pub(crate) initial: Option<InitialChoice>,
+    #[command(flatten)]
+    pub(crate) result: ResultOptions,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ResidualArguments {
+    /// The model: JSON of `identify` (model.json or its result) or of a state space.
+    pub(crate) model: PathBuf,
+    /// Records: tables of samples (CSV).
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Input of the model and column of the records; the only input by default.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) input: Option<String>,
+    /// Output of the model and column of the records; may be repeated; all outputs of the model by default.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) output: Vec<String>,
+    /// Number of lags.
+    #[arg(long, value_name = "N", default_value_t = 25)]
+    pub(crate) lags: usize,
+    /// Samples from one lag to the next; by default so many that the lags reach a period of the fastest oscillation.
+    #[arg(long, value_name = "N")]
+    pub(crate) step: Option<usize>,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingOptions,
+    /// State of the model at the first sample of a record; that of the identification if the file tells, else zero.
+    #[arg(long, value_enum)]
+    pub(crate) initial: Option<InitialChoice>,
+    #[command(flatten)]
+    pub(crate) result: ResultOptions,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct ResultOptions {
     /// Directory for plots, tables and the model; made if it is not there.
     #[arg(long, value_name = "DIR")]
@@ -285,6 +357,18 @@ fn weights(text: &str) -> Result<WeightsChoice, String> {
             })
             .collect::<Result<_, _>>()
             .map(WeightsChoice::Given),
+    }
+}
+
+/// `0.1,95`.
+fn band(text: &str) -> Result<[f64; 2], String> {
+    let number = |part: &str| part.trim().parse::<f64>().ok();
+    let ends = text
+        .split_once(',')
+        .map(|(low, high)| (number(low), number(high)));
+    match ends {
+        Some((Some(low), Some(high))) if low > 0.0 && high > low && high.is_finite() => Ok([low, high]),
+        _ => Err("expected two frequencies in rad/s such as 0.1,95, the lower one above zero".to_owned()),
     }
 }
 

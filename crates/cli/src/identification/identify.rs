@@ -2,11 +2,11 @@
 
 use super::args::{EstimationOptions, IdentifyCommand, IdentifyOptions, ResultOptions, WeightsChoice};
 use super::records::{self, Records};
-use super::{json, search, tables};
+use super::{figures, files, json, residuals, search, tables};
 use crate::output::{Failure, print, print_json, remark};
 use albatross::sysid::{
     Advice, Criteria, Estimate, Options, ResidualCheck, ResidualOptions, Simulated, Weights, advise,
-    check_residuals, criteria, estimate, simulate_records,
+    criteria, estimate, simulate_records,
 };
 use std::path::PathBuf;
 use std::time::Instant;
@@ -119,17 +119,10 @@ impl Identified {
         let seconds = start.elapsed().as_secs_f64();
         let data = &records.data;
         let simulated = simulate_records(&estimate.model, data, estimate.initial_estimated)?;
-        let residuals: Vec<Vec<Vec<f64>>> = data
-            .experiments
-            .iter()
-            .zip(&simulated)
-            .map(|(measured, model)| differences(&measured.outputs, &model.outputs))
-            .collect();
-        let shortest = data.experiments.iter().map(|e| e.len()).min().unwrap_or(0);
-        let usual = ResidualOptions::default();
-        let lags = usual.lags.min(shortest.saturating_sub(1));
-        let checks = check_residuals(data, &residuals, &ResidualOptions { lags, ..usual })?;
+        let left = figures::residual_histories(data, &simulated);
         let (slowest, fastest) = range_of_modes(&estimate);
+        let step = residuals::step_of(fastest, data, ResidualOptions::default().lags);
+        let checks = residuals::check(data, &simulated, None, step)?;
         let mut warnings = estimate.warnings.clone();
         if !estimate.model.is_stable() {
             warnings.push(
@@ -139,7 +132,7 @@ impl Identified {
         }
         Ok(Self {
             advice: advise(data, slowest, fastest),
-            criteria: criteria_of(&estimate, &training, &residuals, &options),
+            criteria: criteria_of(&estimate, &training, &left, &options),
             residuals: checks,
             training,
             options,
@@ -195,7 +188,7 @@ fn range_of_modes(estimate: &Estimate) -> (Option<f64>, Option<f64>) {
 fn criteria_of(
     estimate: &Estimate,
     training: &[usize],
-    residuals: &[Vec<Vec<f64>>],
+    left: &[Vec<Vec<f64>>],
     options: &Options,
 ) -> Vec<Criteria> {
     let delay = usize::from(matches!(options.delay, albatross::sysid::Delay::UpTo(_)));
@@ -203,7 +196,7 @@ fn criteria_of(
         .map(|o| {
             let of_training: Vec<&[f64]> = training
                 .iter()
-                .filter_map(|&e| residuals.get(e)?.get(o).map(Vec::as_slice))
+                .filter_map(|&e| left.get(e)?.get(o).map(Vec::as_slice))
                 .collect();
             let samples: usize = of_training.iter().map(|r| r.len()).sum();
             let sum: f64 = of_training.iter().flat_map(|r| r.iter()).map(|v| v * v).sum();
@@ -238,16 +231,23 @@ pub(crate) fn present(
             remark(&format!("note: {place}{}", advice.text));
         }
     }
+    let mut value = json::identified(found)?;
+    if let (Some(map), Some(searched)) = (value.as_object_mut(), search) {
+        map.insert("search".into(), searched.json());
+    }
+    if let Some(out) = &options.out {
+        files::write(out, found, &value, search)?;
+    }
     if options.json {
-        let mut value = json::identified(found)?;
-        if let (Some(map), Some(searched)) = (value.as_object_mut(), search) {
-            map.insert("search".into(), searched.json());
-        }
         return print_json(&value);
     }
     if let Some(searched) = search {
         print(&searched.text()?)?;
         print("")?;
     }
-    print(&tables::summary(found, log)?)
+    print(&tables::summary(found, log)?)?;
+    match &options.out {
+        Some(out) => print(&format!("results are in {}", out.display())),
+        None => Ok(()),
+    }
 }

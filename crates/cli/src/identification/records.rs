@@ -1,7 +1,7 @@
 //! Records: files in, one data set out.
 
 use super::args::{DataOptions, SamplingOptions};
-use crate::output::{Failure, remark};
+use crate::output::{Failure, read_text, remark};
 use albatross::lti::Signal;
 use albatross::sysid::{
     Columns, DataSet, Experiment, Intersample, TrimRemoved, decimate, detect_intersample, remove_trim, table,
@@ -88,7 +88,7 @@ pub(crate) fn read_files(
 }
 
 fn read_record(file: &Path, columns: &Columns) -> Result<(Experiment, Signal, Vec<Signal>), Failure> {
-    let text = albatross::inputs::read_text(file)?;
+    let text = read_text(file)?;
     let table = table::parse(&text, &file.display().to_string())?;
     Ok(table.experiment(columns)?)
 }

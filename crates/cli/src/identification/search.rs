@@ -4,6 +4,7 @@ use super::args::SearchOptions as Arguments;
 use super::identify::{Identified, present, settings};
 use super::records;
 use crate::output::Failure;
+use albatross::report::plot::{Axis, LinePlot, Marker, Panel, Series, Style};
 use albatross::report::{Cell, Column, Format, ReportError, Table};
 use albatross::sysid::search::Training;
 use albatross::sysid::{Candidate, OrderSearch, SearchOptions, search as search_orders};
@@ -133,6 +134,58 @@ impl Searched {
             None => String::new(),
         }));
         cells
+    }
+
+    /// Mean fit on the records not seen (on all, for models of all records) over the number of poles, a curve for every
+    /// training and excess of poles.
+    pub(crate) fn figure(&self) -> Result<String, ReportError> {
+        let mut curves: Vec<((Training, usize), Vec<f64>, Vec<f64>)> = Vec::new();
+        for candidate in &self.search.candidates {
+            let Some(score) = candidate.score else { continue };
+            let key = (candidate.training, candidate.poles - candidate.zeros);
+            let place = curves
+                .iter()
+                .position(|(known, ..)| *known == key)
+                .unwrap_or_else(|| {
+                    curves.push((key, Vec::new(), Vec::new()));
+                    curves.len() - 1
+                });
+            curves[place].1.push(candidate.poles as f64);
+            curves[place].2.push(score);
+        }
+        let excesses = curves.iter().any(|((_, excess), ..)| *excess != curves[0].0.1);
+        // A failed order would hide the differences between good ones.
+        let best = curves.iter().flat_map(|(.., y)| y).copied().fold(0.0, f64::max);
+        let worst = curves.iter().flat_map(|(.., y)| y).copied().fold(best, f64::min);
+        let mut axis = Axis::new("Mean fit on records not used", "%");
+        if best > 0.0 && worst < best - 60.0 {
+            axis = axis.with_limits((best - 60.0).floor(), best + 1.0);
+        }
+        let mut panel = Panel::over(axis);
+        for (i, ((training, excess), np, score)) in curves.into_iter().enumerate() {
+            let mut name = self.training(training);
+            if excesses {
+                name = format!("{name}, nz = np - {excess}");
+            }
+            let (style, marker) = match training {
+                Training::Merged => (Style::reference(), Marker::Disc),
+                _ => (Style::model(i), Marker::Circle),
+            };
+            panel = panel.with(Series::new(name, style.with_marker(marker), np, score));
+        }
+        if let Some(chosen) = self.search.candidates.get(self.search.chosen) {
+            panel = panel.with_guide_x(chosen.poles as f64, format!("chosen: {}", chosen.poles));
+        }
+        let mut orders = Axis::new("Number of poles", "");
+        let poles = self.search.candidates.iter().map(|c| c.poles);
+        let (least, most) = (poles.clone().min().unwrap_or(0), poles.max().unwrap_or(0));
+        if most - least < 6 {
+            // Wide enough for ticks at whole numbers only.
+            let low = least.saturating_sub((7 - (most - least)) / 2);
+            orders = orders.with_limits(low as f64, (low + 7).max(most + 1) as f64);
+        }
+        let plot = LinePlot::new("Search for the order", orders).with(panel);
+        Ok(plot.render()?.markup)
     }
 
     pub(crate) fn text(&self) -> Result<String, ReportError> {

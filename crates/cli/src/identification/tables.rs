@@ -45,6 +45,22 @@ pub(crate) fn fits(
     Ok(table)
 }
 
+/// Fits of records that no one fitted.
+pub(crate) fn scores(outputs: &[Signal], simulated: &[Simulated]) -> Result<Table, ReportError> {
+    let mut columns = vec![Column::text("record")];
+    columns.extend(
+        outputs
+            .iter()
+            .map(|o| Column::new(&o.name, "%", Format::Fixed(2))),
+    );
+    let mut table = Table::new("Fit", columns);
+    for record in simulated {
+        let fits = record.fits.iter().map(|fit| Cell::from(*fit));
+        table.push(std::iter::once(Cell::from(record.experiment.as_str())).chain(fits))?;
+    }
+    Ok(table)
+}
+
 /// Poles with standard deviations; without them if there are none.
 pub(crate) fn poles(estimate: &Estimate) -> Result<Table, ReportError> {
     let model = &estimate.model;
