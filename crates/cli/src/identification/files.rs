@@ -26,6 +26,7 @@ pub(crate) fn write(
         &tables::fits(&model.outputs, &found.simulated, &found.training)?.to_csv(),
     )?;
     files.add("poles.csv", &tables::poles(estimate)?.to_csv())?;
+    files.add("residuals.csv", &tables::residuals(&found.residuals)?.to_csv())?;
     let title = format!("{} poles, {} zeros", model.order(), model.zeros);
     files.add("fit.svg", &figures::fits(&title, data, &found.simulated)?)?;
     files.add("bode.svg", &figures::bode(found)?)?;

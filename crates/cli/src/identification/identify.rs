@@ -2,6 +2,7 @@
 
 use super::args::{EstimationOptions, IdentifyCommand, IdentifyOptions, ResultOptions, WeightsChoice};
 use super::records::{self, Records};
+use super::system::poles_of;
 use super::{figures, files, json, residuals, search, tables};
 use crate::output::{Failure, print, print_json, remark};
 use albatross::sysid::{
@@ -121,7 +122,7 @@ impl Identified {
         let simulated = simulate_records(&estimate.model, data, estimate.initial_estimated)?;
         let left = figures::residual_histories(data, &simulated);
         let (slowest, fastest) = range_of_modes(&estimate);
-        let step = residuals::step_of(fastest, data, ResidualOptions::default().lags);
+        let step = residuals::step_of(&poles_of(&estimate.model), data, ResidualOptions::default().lags);
         let checks = residuals::check(data, &simulated, None, step)?;
         let mut warnings = estimate.warnings.clone();
         if !estimate.model.is_stable() {

@@ -2,7 +2,7 @@
 
 use super::args::{InitialChoice, ResidualArguments};
 use super::compare::in_units_of;
-use super::system::System;
+use super::system::{SeenPole, System};
 use super::{figures, json, records, tables};
 use crate::output::{Failure, Gathered, print, print_json};
 use albatross::sysid::estimate::InitialCondition;
@@ -29,11 +29,7 @@ pub(crate) fn residuals(options: &ResidualArguments) -> Result<(), Failure> {
     let simulated = model.simulate(&data, estimated)?;
     let step = match options.step {
         Some(step) => step,
-        None => step_of(
-            model.fastest_below(std::f64::consts::PI / data.dt())?,
-            &data,
-            options.lags,
-        ),
+        None => step_of(&model.poles()?, &data, options.lags),
     };
     let checks = check(&data, &simulated, Some(options.lags), step)?;
     let value = json!({
@@ -65,10 +61,16 @@ pub(crate) fn residuals(options: &ResidualArguments) -> Result<(), Failure> {
     ))
 }
 
-/// Samples from one lag to the next, so that the lags reach a period of the fastest oscillation.
-pub(crate) fn step_of(fastest_rad_s: Option<f64>, data: &DataSet, lags: usize) -> usize {
+/// Samples from one lag to the next, so that the lags reach a period of the fastest oscillation below the Nyquist
+/// frequency, but no further than a quarter of the shortest record.
+pub(crate) fn step_of(poles: &[SeenPole], data: &DataSet, lags: usize) -> usize {
+    let fastest = poles
+        .iter()
+        .filter(|p| p.value.im > 0.0 && p.value.norm() * data.dt() < std::f64::consts::PI)
+        .map(|p| p.value.norm())
+        .reduce(f64::max);
     let shortest = data.experiments.iter().map(|e| e.len()).min().unwrap_or(0);
-    let period = fastest_rad_s.map_or(0.0, |w| std::f64::consts::TAU / w / data.dt());
+    let period = fastest.map_or(0.0, |w| std::f64::consts::TAU / w / data.dt());
     let most = (shortest / 4 / lags.max(1)).max(1);
     ((period / lags.max(1) as f64).ceil() as usize).clamp(1, most)
 }

@@ -149,12 +149,7 @@ impl System {
     /// Poles with positive imaginary part and real ones, with their share in the response of a selected model.
     pub(crate) fn poles(&self) -> Result<Vec<SeenPole>, Failure> {
         match &self.form {
-            Form::Identified(model) => Ok(model
-                .poles()
-                .into_iter()
-                .filter(|p| p.im >= 0.0)
-                .map(|value| SeenPole { value, share: 1.0 })
-                .collect()),
+            Form::Identified(model) => Ok(poles_of(model)),
             Form::StateSpace(system) => seen_poles(system),
         }
     }
@@ -210,16 +205,12 @@ impl System {
             })
             .collect()
     }
+}
 
-    /// Oscillations of a selected model up to a frequency: the fastest \[rad/s\].
-    pub(crate) fn fastest_below(&self, limit_rad_s: f64) -> Result<Option<f64>, Failure> {
-        Ok(self
-            .poles()?
-            .iter()
-            .filter(|p| p.value.im > 0.0 && p.value.norm() < limit_rad_s)
-            .map(|p| p.value.norm())
-            .reduce(f64::max))
-    }
+/// Poles of an identified model, which the data have seen.
+pub(crate) fn poles_of(model: &Model) -> Vec<SeenPole> {
+    let poles = model.poles().into_iter().filter(|p| p.im >= 0.0);
+    poles.map(|value| SeenPole { value, share: 1.0 }).collect()
 }
 
 /// A model whose lists have the lengths that its order asks for.
