@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::identification::args::{CompareOptions, IdentifyCommand, ResidualArguments};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -29,6 +30,12 @@ pub(crate) enum Command {
     Bode(BodeOptions),
     /// Non-linear simulation of a manoeuvre.
     Simulate(SimulateOptions),
+    /// Transfer functions from time histories, with common poles, standard deviations and fits.
+    Identify(IdentifyCommand),
+    /// A model against another one (poles, frequency responses, peaks) and against records (fits).
+    Compare(Box<CompareOptions>),
+    /// What a model leaves unexplained in records: whiteness, dependence on the input.
+    Residuals(Box<ResidualArguments>),
     /// A neutral wing model (JSON): matrices, flutter, divergence, as JSON.
     Wing {
         /// Model file; `-` reads standard input.

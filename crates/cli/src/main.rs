@@ -3,6 +3,7 @@
 mod args;
 mod case;
 mod figures;
+mod identification;
 mod neutral;
 mod output;
 mod run;
@@ -23,6 +24,9 @@ fn main() -> ExitCode {
         Command::ModesTable(options) => case::modes_table(options),
         Command::Bode(options) => case::bode(options),
         Command::Simulate(options) => case::simulate(options),
+        Command::Identify(options) => identification::identify(options),
+        Command::Compare(options) => identification::compare(options),
+        Command::Residuals(options) => identification::residuals(options),
         Command::Wing { file } => neutral::wing(file),
         Command::Aircraft { file } => neutral::aircraft(file),
     };

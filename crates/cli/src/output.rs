@@ -15,9 +15,20 @@ pub(crate) enum Failure {
     /// From tables and plots.
     #[error(transparent)]
     Report(#[from] albatross::report::ReportError),
+    /// From identification.
+    #[error(transparent)]
+    Sysid(#[from] albatross::sysid::Error),
     /// JSON could not be made.
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// A file named on the command line cannot be read.
+    #[error("{path}: {source}; check the path")]
+    Read {
+        /// File.
+        path: String,
+        /// Cause.
+        source: std::io::Error,
+    },
     /// Writing failed.
     #[error("{path}: cannot be written: {source}")]
     Write {
@@ -94,6 +105,14 @@ pub(crate) fn error(failure: &Failure) {
     ));
 }
 
+/// Text of a file named on the command line.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    albatross::inputs::read_text(path).map_err(|error| match error {
+        albatross::Error::Read { file, source } => Failure::Read { path: file, source },
+        other => Failure::Albatross(other),
+    })
+}
+
 /// Makes a directory with its parents.
 pub(crate) fn make_directory(path: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(path).map_err(|source| Failure::Write {
@@ -121,6 +140,60 @@ pub(crate) fn write(path: &Path, content: &str) -> Result<(), Failure> {
     readable(file.as_file()).map_err(fail)?;
     file.persist(path).map_err(|e| fail(e.error))?;
     Ok(())
+}
+
+/// Files gathered beside a directory and moved in together at the end: a command that fails leaves nothing behind.
+pub(crate) struct Gathered {
+    directory: tempfile::TempDir,
+}
+
+impl Gathered {
+    /// An empty collection for `out`, whose parents are made if they are not there.
+    pub(crate) fn beside(out: &Path) -> Result<Self, Failure> {
+        let parent = out
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        make_directory(parent)?;
+        let directory = tempfile::Builder::new()
+            .prefix(".albatross-")
+            .tempdir_in(parent)
+            .map_err(|source| Failure::Write {
+                path: parent.display().to_string(),
+                source,
+            })?;
+        Ok(Self { directory })
+    }
+
+    /// Where the files are gathered.
+    pub(crate) fn path(&self) -> &Path {
+        self.directory.path()
+    }
+
+    /// Adds a file.
+    pub(crate) fn add(&self, name: &str, content: &str) -> Result<(), Failure> {
+        write(&self.path().join(name), content)
+    }
+
+    /// Adds a file of JSON.
+    pub(crate) fn add_json(&self, name: &str, value: &impl serde::Serialize) -> Result<(), Failure> {
+        self.add(name, &(serde_json::to_string_pretty(value)? + "\n"))
+    }
+
+    /// Moves all files into the directory, each at once.
+    pub(crate) fn move_to(self, out: &Path) -> Result<(), Failure> {
+        let fail = |path: &Path, source: std::io::Error| Failure::Write {
+            path: path.display().to_string(),
+            source,
+        };
+        make_directory(out)?;
+        for entry in std::fs::read_dir(self.path()).map_err(|e| fail(self.path(), e))? {
+            let entry = entry.map_err(|e| fail(self.path(), e))?;
+            let target = out.join(entry.file_name());
+            std::fs::rename(entry.path(), &target).map_err(|e| fail(&target, e))?;
+        }
+        Ok(())
+    }
 }
 
 /// Temporary files are private; results are not.

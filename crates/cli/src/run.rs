@@ -2,7 +2,7 @@
 
 use crate::args::RunOptions;
 use crate::case::{self, Loaded};
-use crate::output::{Failure, make_directory, print, print_json, remark, write};
+use crate::output::{Failure, Gathered, print, print_json, remark, write};
 use crate::{figures, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};
 use albatross::report::Table;
@@ -35,25 +35,12 @@ impl Progress {
 }
 
 pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
-    // Results are gathered beside the directory and moved in at the end: a stage that fails leaves nothing behind.
-    let parent = options
-        .out
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
     let mut progress = Progress {
         quiet: options.case.quiet,
         stage: 0,
     };
     let Loaded { inputs, model } = progress.stage("read and build", || case::load(&options.case))?;
-    make_directory(parent)?;
-    let gathered = tempfile::Builder::new()
-        .prefix(".albatross-")
-        .tempdir_in(parent)
-        .map_err(|source| Failure::Write {
-            path: parent.display().to_string(),
-            source,
-        })?;
+    let gathered = Gathered::beside(&options.out)?;
     let out = gathered.path();
 
     let modes = progress.stage("structural modes", || {
@@ -98,23 +85,8 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?)
     })?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
-    move_files(out, &options.out)?;
+    gathered.move_to(&options.out)?;
     summary(options, &model, &trimmed, &mode_table, modes.len())
-}
-
-/// Moves all files of a directory into another one, each at once.
-fn move_files(from: &Path, to: &Path) -> Result<(), Failure> {
-    let fail = |path: &Path, source: std::io::Error| Failure::Write {
-        path: path.display().to_string(),
-        source,
-    };
-    make_directory(to)?;
-    for entry in std::fs::read_dir(from).map_err(|e| fail(from, e))? {
-        let entry = entry.map_err(|e| fail(from, e))?;
-        let target = to.join(entry.file_name());
-        std::fs::rename(entry.path(), &target).map_err(|e| fail(&target, e))?;
-    }
-    Ok(())
 }
 
 fn simulations(out: &Path, inputs: &albatross::Inputs, trimmed: &Trimmed) -> Result<(), Failure> {

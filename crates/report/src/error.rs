@@ -30,7 +30,7 @@ pub enum ReportError {
     SeriesLength {
         /// Name of the series.
         series: String,
-        /// Which list is meant by the second length: `y`, `magnitude`, `phase` or `point labels`.
+        /// Which list is meant by the second length: `y`, `magnitude`, `phase`, `band` or `point labels`.
         what: &'static str,
         /// Length of the list of abscissae.
         x: usize,

@@ -2,7 +2,7 @@
 
 use albatross_lti::{Signal, StateSpace, TransferFunction, Zpk};
 use albatross_numerics::{C64, Mat};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::blocks::{self, Block, state_matrices};
 use crate::filters::{Bank, Timing};
@@ -16,7 +16,7 @@ use crate::{Error, Experiment, Intersample, Result};
 /// ```
 /// with the states x of the blocks ([`Block`]). This form keeps its digits at any order; zeros, poles, gain and
 /// polynomials are derived from it for reading and never used for computing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// Name and unit of the input.
     pub input: Signal,

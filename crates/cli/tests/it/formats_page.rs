@@ -26,6 +26,89 @@ fn keys(value: &Value) -> Names {
     value.as_object().unwrap().keys().cloned().collect()
 }
 
+/// A section of the page.
+fn section<'a>(text: &'a str, title: &str) -> &'a str {
+    let heading = format!("\n## {title}\n");
+    let begin = text
+        .find(&heading)
+        .unwrap_or_else(|| panic!("no section {title}"))
+        + heading.len();
+    let rest = &text[begin..];
+    &rest[..rest.find("\n## ").unwrap_or(rest.len())]
+}
+
+/// Every key that identification prints, also within its lists, stands in its section, and every file in its own.
+#[test]
+fn val_keys_and_files_of_identification() {
+    let text = text();
+    let documented =
+        quoted(&(section(&text, "Output of identification").to_owned() + section(&text, "Models (JSON)")));
+    let files = quoted(section(&text, "Files of identification"));
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).display().to_string();
+    let record = fixtures().join("f25-like/reference/doublet_3Hz.csv");
+    let record = record.to_str().unwrap();
+    let data = [
+        "--input",
+        "elevator",
+        "--output",
+        "q",
+        "--decimate",
+        "8",
+        "--json",
+        "--quiet",
+        record,
+    ];
+    let run = |arguments: &[&str]| json(&[arguments, &data].concat());
+    let found = run(&["identify", "search", "--np", "2..3", "--out", &at("identify")]);
+    let model = at("identify/model.json");
+    let system = at("identify/state_space.json");
+    let compared = run(&["compare", &model, "--reference", &system, "--out", &at("compare")]);
+    let checked = run(&["residuals", &model, "--out", &at("residuals")]);
+    for (command, value) in [
+        ("identify", &found),
+        ("compare", &compared),
+        ("residuals", &checked),
+    ] {
+        let mut printed = keys(value);
+        for place in [
+            "/poles/0",
+            "/modes/0",
+            "/modes/0/residues/0",
+            "/transfer_function",
+            "/iteration_log/0",
+            "/starts/0",
+            "/residuals/0",
+            "/residuals/0/auto",
+            "/criteria",
+            "/advice/0",
+            "/model",
+            "/search",
+            "/search/candidates/0",
+            "/search/scores/0",
+            "/matched/0",
+            "/matched/0/identified",
+            "/left_out",
+            "/left_out/model",
+            "/bode",
+        ] {
+            printed.extend(
+                value
+                    .pointer(place)
+                    .filter(|v| v.is_object())
+                    .map(keys)
+                    .unwrap_or_default(),
+            );
+        }
+        let missing: Vec<_> = printed.difference(&documented).collect();
+        assert!(missing.is_empty(), "{command}: {missing:?} are not on the page");
+        for entry in std::fs::read_dir(at(command)).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            assert!(files.contains(&name), "{command}: {name} is not on the page");
+        }
+    }
+}
+
 /// Every key that a command prints, at the top and in the first entry of its lists, stands in its row.
 #[test]
 fn val_keys_of_the_commands() {
@@ -100,7 +183,7 @@ fn val_keys_of_neutral_models() {
 #[test]
 fn val_files_of_a_run() {
     let text = text();
-    let section = &text[text.find("\n## Files of").unwrap()..];
+    let section = section(&text, "Files of `albatross run`");
     let mut documented = Names::new();
     for line in section.lines().filter(|l| l.starts_with("| `")) {
         for name in quoted(line.split(" | ").next().unwrap()) {

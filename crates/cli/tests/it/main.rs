@@ -4,6 +4,7 @@
 
 mod case_page;
 mod formats_page;
+mod identify;
 mod options;
 mod support;
 

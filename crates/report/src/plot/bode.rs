@@ -35,6 +35,8 @@ pub struct BodeCurve {
     pub magnitude_db: Vec<f64>,
     /// Phase in degrees at each frequency, unwrapped if so wanted.
     pub phase_deg: Vec<f64>,
+    /// Half widths of a shaded band at each frequency, in decibels and degrees; empty for none.
+    pub band: Vec<(f64, f64)>,
 }
 
 /// One input-output pair with the responses of the systems compared.
@@ -101,9 +103,17 @@ impl BodeChannel {
         let mut phase = Panel::over(Axis::new("Phase", "deg").with_scale(Scale::Degrees)).with_height(120.0);
         let anchor = self.lowest();
         for curve in &self.curves {
-            let series = |y: Vec<f64>| Series::new(&*curve.name, curve.style, curve.frequency.clone(), y);
+            let plain = |y: Vec<f64>| Series::new(&*curve.name, curve.style, curve.frequency.clone(), y);
+            let banded = |y: Vec<f64>, half: fn(&(f64, f64)) -> f64| {
+                let ends = |(y, widths): (&f64, &(f64, f64))| (y - half(widths), y + half(widths));
+                let band: Vec<(f64, f64)> = y.iter().zip(&curve.band).map(ends).collect();
+                plain(y).with_band(band)
+            };
+            let series = |y: Vec<f64>| banded(y, |widths| widths.1);
             curve.check()?;
-            magnitude.series.push(series(curve.magnitude_db.clone()));
+            magnitude
+                .series
+                .push(banded(curve.magnitude_db.clone(), |widths| widths.0));
             match (display, anchor) {
                 (PhaseDisplay::Aligned, Some((anchor, start))) => {
                     let turns = 360.0 * (curve.turns_away_from(anchor) + start);
@@ -111,6 +121,7 @@ impl BodeChannel {
                         .series
                         .push(series(curve.phase_deg.iter().map(|deg| deg - turns).collect()));
                 }
+                // A folded band would cover the whole diagram at every jump.
                 (PhaseDisplay::Wrapped, _) => phase.series.push(wrapped(curve)),
                 (PhaseDisplay::Aligned | PhaseDisplay::AsGiven, _) => {
                     phase.series.push(series(curve.phase_deg.clone()))
@@ -142,7 +153,15 @@ impl BodeCurve {
             frequency: frequency.into(),
             magnitude_db: magnitude_db.into(),
             phase_deg: phase_deg.into(),
+            band: Vec::new(),
         }
+    }
+
+    /// This response with a shaded band of confidence: half widths in decibels and degrees at each frequency.
+    #[must_use]
+    pub fn with_band(mut self, half_widths: impl Into<Vec<(f64, f64)>>) -> Self {
+        self.band = half_widths.into();
+        self
     }
 
     fn check(&self) -> Result<(), ReportError> {
@@ -150,6 +169,7 @@ impl BodeCurve {
         let lists = [
             ("magnitude", self.magnitude_db.len()),
             ("phase", self.phase_deg.len()),
+            ("band", if self.band.is_empty() { x } else { self.band.len() }),
         ];
         match lists.into_iter().find(|(_, length)| *length != x) {
             Some((what, y)) => Err(ReportError::SeriesLength {

@@ -83,6 +83,27 @@ pub(crate) fn visible(points: &[Option<Point>], window: &Window) -> Vec<Vec<Poin
         .collect()
 }
 
+/// Closed outlines of a band between two curves over the same abscissae, cut off at the window; gaps part it.
+pub(crate) fn outlines(lower: &[Option<Point>], upper: &[Option<Point>], window: &Window) -> Vec<Vec<Point>> {
+    let inside = |point: Point| (window.left..=window.right()).contains(&point.0);
+    let cut = |(x, y): Point| (x, y.clamp(window.top, window.bottom()));
+    let pairs: Vec<Option<(Point, Point)>> = lower
+        .iter()
+        .zip(upper)
+        .map(|(low, high)| Some((cut((*low).filter(|p| inside(*p))?), cut((*high)?))))
+        .collect();
+    pairs
+        .split(Option::is_none)
+        .filter(|run| run.len() > 1)
+        .map(|run| {
+            let (low, high): (Vec<Point>, Vec<Point>) = run.iter().flatten().copied().unzip();
+            let mut outline = simplify(&high);
+            outline.extend(simplify(&low).into_iter().rev());
+            outline
+        })
+        .collect()
+}
+
 /// First, lowest, highest and last point of each pixel column, in order, if the abscissa never turns back.
 fn thin(run: &[Point]) -> Vec<Point> {
     if !run.is_sorted_by(|a, b| a.0 <= b.0) {
@@ -246,6 +267,37 @@ mod tests {
         let parts = visible(&points, &WINDOW);
         assert!(parts[0].iter().any(|point| point.1 == 3.0));
         assert!(parts[0].len() < 10, "{}", parts[0].len());
+    }
+
+    #[test]
+    fn a_band_is_cut_off_at_the_frame_and_parted_by_gaps() {
+        let at = |x: f64, y: f64| Some((x, y));
+        let lower = [
+            at(0.0, 60.0),
+            at(10.0, 60.0),
+            at(20.0, 60.0),
+            None,
+            at(40.0, 60.0),
+            at(50.0, 60.0),
+        ];
+        let upper = [
+            at(0.0, 40.0),
+            at(10.0, -90.0),
+            at(20.0, 40.0),
+            at(30.0, 40.0),
+            at(40.0, 40.0),
+            at(50.0, 40.0),
+        ];
+        let outlines = outlines(&lower, &upper, &WINDOW);
+        assert_eq!(outlines.len(), 2);
+        assert_eq!(
+            outlines[0],
+            [(0.0, 40.0), (10.0, 0.0), (20.0, 40.0), (20.0, 60.0), (0.0, 60.0)]
+        );
+        assert_eq!(
+            outlines[1],
+            [(40.0, 40.0), (50.0, 40.0), (50.0, 60.0), (40.0, 60.0)]
+        );
     }
 
     proptest! {

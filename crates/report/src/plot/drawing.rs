@@ -1,7 +1,7 @@
 //! Drawing a panel into its frame: grid, rays, guides, curves, and the texts among them.
 
 use super::axis::Ruler;
-use super::curve::{Point, Window, dots, path, visible};
+use super::curve::{Point, Window, dots, outlines, path, visible};
 use super::palette::{Marker, marker_path};
 use super::panel::{Panel, Series};
 use super::svg::{Anchor, Canvas, Label, Stroke};
@@ -26,6 +26,9 @@ impl Drawing<'_> {
             (self.window.width, self.window.height),
         );
         canvas.rectangle(corner, size, "none", Some(&Stroke::solid(theme::FRAME, 0.9)));
+        for series in &self.panel.series {
+            self.band(canvas, series);
+        }
         for series in &self.panel.series {
             self.series(canvas, series);
         }
@@ -255,6 +258,17 @@ impl Drawing<'_> {
         series.points().map(place).collect()
     }
 
+    /// The shaded band of a series, below all curves.
+    fn band(&self, canvas: &mut Canvas, series: &Series) {
+        let place = |(x, y): (f64, f64)| Some(self.window.at(self.x.fraction(x)?, self.y.fraction(y)?));
+        let edge = |end: fn(&(f64, f64)) -> f64| -> Vec<Option<Point>> {
+            let points = series.x.iter().zip(&series.band);
+            points.map(|(x, ends)| place((*x, end(ends)))).collect()
+        };
+        let outlines = outlines(&edge(|ends| ends.0), &edge(|ends| ends.1), &self.window);
+        canvas.shaded(&path(&outlines), &series.style.colour.hex());
+    }
+
     fn series(&self, canvas: &mut Canvas, series: &Series) {
         let pixels = self.pixels(series);
         let (style, width) = (&series.style, series.style.drawn_width());
@@ -307,7 +321,18 @@ impl Drawing<'_> {
             width: 8.0,
             height: 8.0,
         };
-        let marks: Vec<Window> = labelled.iter().map(|(point, _)| mark(*point)).collect();
+        // Markers of other series are not to be covered either.
+        let others = self
+            .panel
+            .series
+            .iter()
+            .filter(|s| s.labels.is_empty() && s.style.line.is_none());
+        let marks: Vec<Window> = labelled
+            .iter()
+            .map(|(point, _)| *point)
+            .chain(others.flat_map(|series| self.pixels(series)).flatten())
+            .map(mark)
+            .collect();
         for (point, label) in labelled {
             let (width, height) = (text::width(label, theme::NOTE), theme::NOTE);
             let sides = [

@@ -1,5 +1,6 @@
 //! The legend: outside the frames, wrapped to the width there is.
 
+use super::curve::path;
 use super::drawing::draw_markers;
 use super::palette::Style;
 use super::panel::Panel;
@@ -19,6 +20,8 @@ const BETWEEN: f64 = 22.0;
 struct Entry {
     lines: Vec<String>,
     style: Style,
+    /// Whether a band is shaded around the curve.
+    shaded: bool,
     /// Room for line or marker, the same for all entries.
     sample: f64,
 }
@@ -49,16 +52,19 @@ pub(crate) struct Legend {
 impl Legend {
     /// One entry for each name and style among the panels, in order of appearance.
     pub(crate) fn new<'a>(panels: impl Iterator<Item = &'a Panel>, width: f64) -> Self {
-        let mut known: Vec<(&str, Style)> = Vec::new();
+        let mut known: Vec<(&str, Style, bool)> = Vec::new();
         for series in panels
             .flat_map(|panel| &panel.series)
             .filter(|series| !series.name.is_empty())
         {
-            if !known.contains(&(series.name.as_str(), series.style)) {
-                known.push((series.name.as_str(), series.style));
+            let shaded = !series.band.is_empty();
+            let same = |entry: &&mut (&str, Style, bool)| (entry.0, entry.1) == (&*series.name, series.style);
+            match known.iter_mut().find(same) {
+                Some(entry) => entry.2 |= shaded,
+                None => known.push((series.name.as_str(), series.style, shaded)),
             }
         }
-        let sample = if known.iter().any(|(_, style)| style.line.is_some()) {
+        let sample = if known.iter().any(|(_, style, _)| style.line.is_some()) {
             SAMPLE
         } else {
             MARKER
@@ -66,9 +72,10 @@ impl Legend {
         let room = (width - sample - GAP).max(40.0);
         let entries: Vec<Entry> = known
             .into_iter()
-            .map(|(name, style)| Entry {
+            .map(|(name, style, shaded)| Entry {
                 lines: text::wrap(name, LEGEND, room),
                 style,
+                shaded,
                 sample,
             })
             .collect();
@@ -142,6 +149,16 @@ fn row_height(row: &[Entry]) -> f64 {
 fn draw_entry(canvas: &mut Canvas, entry: &Entry, x: f64, top: f64) {
     let y = top + 0.5 * LEGEND * LINE;
     let (colour, width) = (entry.style.colour.hex(), entry.style.drawn_width());
+    if entry.shaded {
+        let (left, right) = (x, x + entry.sample);
+        let corners = vec![
+            (left, y - 5.0),
+            (right, y - 5.0),
+            (right, y + 5.0),
+            (left, y + 5.0),
+        ];
+        canvas.shaded(&path(&[corners]), &colour);
+    }
     if let Some(dash) = entry.style.line {
         let dashes = dash.lengths(width);
         canvas.line(

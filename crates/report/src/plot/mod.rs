@@ -3,6 +3,7 @@
 //! | plot | shows |
 //! |---|---|
 //! | [`LinePlot`] | curves over one abscissa, in stacked panels: time histories, distributions over span |
+//! | [`GridPlot`] | diagrams with abscissae of their own in a grid: records of different length |
 //! | [`BodePlot`] | magnitude over phase; systems overlaid, channels in a grid |
 //! | [`ScatterPlot`] | points and loci in a plane, with rays of constant damping |
 //!
@@ -16,6 +17,7 @@ mod axis;
 mod bode;
 mod curve;
 mod drawing;
+mod grid;
 mod legend;
 mod line;
 mod palette;
@@ -29,6 +31,7 @@ mod ticks;
 
 pub use axis::{Axis, Scale};
 pub use bode::{BodeChannel, BodeCurve, BodePlot, PhaseDisplay};
+pub use grid::{Diagram, GridPlot};
 pub use line::LinePlot;
 pub use palette::{Colour, Dash, Marker, Style};
 pub use panel::{Guide, Panel, Series};

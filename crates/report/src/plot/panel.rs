@@ -19,6 +19,9 @@ pub struct Series {
     pub style: Style,
     /// A text beside each point; empty for none.
     pub labels: Vec<String>,
+    /// Lower and upper end of a shaded band at each abscissa, such as a confidence band; empty for none. The axis is
+    /// fitted to the curve alone: the band is cut off at the frame.
+    pub band: Vec<(f64, f64)>,
 }
 
 impl Series {
@@ -35,7 +38,15 @@ impl Series {
             y: y.into(),
             style,
             labels: Vec::new(),
+            band: Vec::new(),
         }
+    }
+
+    /// This series with a shaded band: lower and upper end at each abscissa, in ascending order of abscissae.
+    #[must_use]
+    pub fn with_band(mut self, ends: impl Into<Vec<(f64, f64)>>) -> Self {
+        self.band = ends.into();
+        self
     }
 
     /// This series with a text beside each point, such as a mode number.
@@ -61,6 +72,9 @@ impl Series {
         }
         if !self.labels.is_empty() && self.labels.len() != self.x.len() {
             return Err(differs("point labels", self.labels.len()));
+        }
+        if !self.band.is_empty() && self.band.len() != self.x.len() {
+            return Err(differs("band", self.band.len()));
         }
         Ok(())
     }

@@ -168,6 +168,13 @@ impl Canvas {
         }
     }
 
+    /// The inside of closed paths, faint enough to see the grid through it.
+    pub(crate) fn shaded(&mut self, path: &str, colour: &str) {
+        if !path.is_empty() {
+            self.body += &format!("<path d=\"{path}\" fill=\"{colour}\" fill-opacity=\"0.22\"/>\n");
+        }
+    }
+
     pub(crate) fn label(&mut self, label: &Label<'_>) {
         if label.text.is_empty() {
             return;
