@@ -13,6 +13,7 @@
 //! Parameters are counted in units of the block's scale w: da1 = w dp, da0 = w^2 dp, da = w dp.
 
 use albatross_numerics::Mat;
+use albatross_numerics::matrix::axpy;
 
 use crate::blocks::Block;
 use crate::elimination::{Elimination, Record, Unknowns};
@@ -277,11 +278,11 @@ impl Problem<'_> {
         for block in &fitted.point.blocks {
             let (a, b) = block.matrices();
             let n = block.order();
-            for i in 0..n {
-                for j in 0..n {
-                    albatross_numerics::matrix::axpy(c[at + i] * a[i][j], &forced.x[at + j], &mut rate);
+            for (c, (row, input)) in c[at..at + n].iter().zip(a.iter().zip(b)) {
+                for (a, x) in row.iter().zip(&forced.x[at..at + n]) {
+                    axpy(c * a, x, &mut rate);
                 }
-                albatross_numerics::matrix::axpy(c[at + i] * b[i], &delayed, &mut rate);
+                axpy(c * input, &delayed, &mut rate);
             }
             at += n;
         }
@@ -303,7 +304,7 @@ impl Problem<'_> {
             .map(|o| {
                 let mut y = combine(&own, |i| fitted.unknowns.own[o][i]);
                 for (column, f) in local.iter().zip(&fitted.unknowns.local[o][e]) {
-                    albatross_numerics::matrix::axpy(*f, column, &mut y);
+                    axpy(*f, column, &mut y);
                 }
                 y
             })

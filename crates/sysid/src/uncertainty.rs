@@ -431,11 +431,16 @@ impl NumeratorMap {
 
     /// Adds `factor` times the gradient of coefficient `i`.
     fn add(&self, i: usize, factor: f64, gradient: &mut [f64]) {
-        for j in 0..self.shared.ncols() {
-            gradient[j] += factor * self.shared[(i, j)];
+        for (j, g) in gradient.iter_mut().enumerate().take(self.shared.ncols()) {
+            *g += factor * self.shared[(i, j)];
         }
-        for j in 0..self.own.ncols() {
-            gradient[self.at + j] += factor * self.own[(i, j)];
+        for (j, g) in gradient
+            .iter_mut()
+            .skip(self.at)
+            .enumerate()
+            .take(self.own.ncols())
+        {
+            *g += factor * self.own[(i, j)];
         }
     }
 }

@@ -58,7 +58,10 @@ pub(crate) fn compare(fresh: &Path, kept: &Path, kinds: &[(&str, Kind)]) -> Resu
     );
     for name in new.intersection(&old) {
         let (stem, kind) = name.rsplit_once('.').unwrap_or((name, ""));
-        let kind_of = kinds.iter().find(|(known, _)| *known == stem).map(|(_, kind)| *kind);
+        let kind_of = kinds
+            .iter()
+            .find(|(known, _)| *known == stem)
+            .map(|(_, kind)| *kind);
         let tolerance = match kind_of {
             Some(Kind::Measured) => continue,
             Some(Kind::Iterated) => ITERATED,

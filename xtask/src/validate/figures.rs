@@ -4,8 +4,8 @@ use super::identification::{Identification, Output};
 use super::reference::{MANOEUVRES, QUANTITIES, Quantity};
 use super::study::{AVL, CORRECTED, Study, Variant};
 use crate::error::Error;
-use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Dash, LinePlot, Panel, Series, Style};
 use albatross::lti::frequency::unwrap_deg;
+use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Dash, LinePlot, Panel, Series, Style};
 use albatross::strip::slopes::base_name;
 use albatross::sysid::Band;
 

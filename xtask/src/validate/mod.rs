@@ -28,9 +28,9 @@ pub(crate) use paper::read_json;
 
 use crate::error::Error;
 use crate::workspace;
+use check::Kind;
 use identification::Identification;
 use identification::search::{self, Kept};
-use check::Kind;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use study::Study;
@@ -124,9 +124,10 @@ impl Results {
         let stale = kept.stale(root)?;
         let since = Instant::now();
         let identification = Identification::run(&study, kept)?;
-        study
-            .measured
-            .stage("identification of four transfer functions at two orders, two threads", since);
+        study.measured.stage(
+            "identification of four transfer functions at two orders, two threads",
+            since,
+        );
         let mut tables: Vec<Named> = vec![Named::new("inputs", page::inputs(root, &study)?)];
         tables.extend(tables::all(&study)?);
         tables.extend(fits::all(&study)?);

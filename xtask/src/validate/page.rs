@@ -6,8 +6,8 @@ use super::check::{
     RELATIVE_ITERATED,
 };
 use super::figures::Figure;
-use super::identification::{Identification, search, text};
 use super::fits;
+use super::identification::{Identification, search, text};
 use super::reference::MANOEUVRES;
 use super::study::{AVL, CORRECTED, Study, VARIANTS, control_index};
 use super::tables::{self, Named};
@@ -395,11 +395,7 @@ fn reasons(parts: &mut Parts<'_>, study: &Study, account: &Account) -> Result<()
 }
 
 /// Tables 4 and 5.
-fn identified(
-    parts: &mut Parts<'_>,
-    study: &Study,
-    identification: &Identification,
-) -> Result<(), Error> {
+fn identified(parts: &mut Parts<'_>, study: &Study, identification: &Identification) -> Result<(), Error> {
     let [fits, truth, model] = text::outcome(study, identification)?;
     parts
         .page

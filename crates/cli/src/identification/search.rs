@@ -81,6 +81,9 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
+/// Training and excess of poles of a curve, numbers of poles, scores.
+type Curve = ((Training, usize), Vec<f64>, Vec<f64>);
+
 impl Searched {
     /// What a candidate was trained on.
     fn training(&self, training: Training) -> String {
@@ -139,7 +142,7 @@ impl Searched {
     /// Mean fit on the records not seen (on all, for models of all records) over the number of poles, a curve for every
     /// training and excess of poles.
     pub(crate) fn figure(&self) -> Result<String, ReportError> {
-        let mut curves: Vec<((Training, usize), Vec<f64>, Vec<f64>)> = Vec::new();
+        let mut curves: Vec<Curve> = Vec::new();
         for candidate in &self.search.candidates {
             let Some(score) = candidate.score else { continue };
             let key = (candidate.training, candidate.poles - candidate.zeros);

@@ -118,8 +118,6 @@ pub(crate) struct Identified {
     pub(crate) model: Model,
     /// Deviations from trim that it predicts, by history, SI.
     predicted: Vec<Vec<f64>>,
-    /// What the estimation warns of.
-    pub(crate) warnings: Vec<String>,
 }
 
 impl Identified {
@@ -138,7 +136,6 @@ impl Identified {
                 .collect(),
             modes: found.uncertainty.map(|u| u.modes).unwrap_or_default(),
             model: found.model,
-            warnings: found.warnings,
         })
     }
 
@@ -238,9 +235,12 @@ impl Output {
 /// Poles and zeros of the paper for an output.
 pub(crate) fn paper_order(study: &Study, target: Target) -> Result<(usize, usize), Error> {
     let rows = &study.paper.printed.table4.rows;
-    let row = rows
-        .iter()
-        .find(|r| Target::of_code(&r.output).and_then(|i| TARGETS.get(i)).map(|t| t.code) == Some(target.code));
+    let row = rows.iter().find(|r| {
+        Target::of_code(&r.output)
+            .and_then(|i| TARGETS.get(i))
+            .map(|t| t.code)
+            == Some(target.code)
+    });
     let order = row.and_then(|r| Some((usize::try_from(r.poles).ok()?, usize::try_from(r.zeros).ok()?)));
     order.ok_or_else(|| Error::Mismatch {
         what: "rows of the paper's Table 4".into(),

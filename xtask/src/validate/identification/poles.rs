@@ -55,10 +55,13 @@ struct Lists {
 impl Lists {
     fn of(study: &Study) -> Result<Self, Error> {
         let modes = &study.reference.modes;
-        let mut reference: Vec<Listed> = [("phugoid", modes.phugoid()), ("short period", modes.short_period())]
-            .into_iter()
-            .filter_map(|(name, e)| e.map(|e| Listed::new(name, e.omega_rad_s, e.zeta)))
-            .collect();
+        let mut reference: Vec<Listed> = [
+            ("phugoid", modes.phugoid()),
+            ("short period", modes.short_period()),
+        ]
+        .into_iter()
+        .filter_map(|(name, e)| e.map(|e| Listed::new(name, e.omega_rad_s, e.zeta)))
+        .collect();
         let ranked = study.ranked_reference()?;
         for eigenvalue in modes.elastic(true) {
             let same = |e: Option<&Eigenvalue>| e.is_some_and(|e| std::ptr::eq(e, eigenvalue));
@@ -85,7 +88,9 @@ impl Lists {
             .collect();
         let basis = &study.variant(CORRECTED)?.model.basis.modes;
         for (k, mode) in study.ranked(corrected)?.into_iter().enumerate() {
-            let symmetric = basis.get(k).is_some_and(|m| m.symmetry != Symmetry::Antisymmetric);
+            let symmetric = basis
+                .get(k)
+                .is_some_and(|m| m.symmetry != Symmetry::Antisymmetric);
             if let Some(mode) = mode.filter(|_| symmetric) {
                 model.push(Listed::new(
                     format!("mode {}", k + 1),
@@ -114,7 +119,8 @@ fn pole_of<'a>(found: &'a Identified, list: &[Listed], name: &str) -> Option<&'a
     found.modes.get(pair.identified.index)
 }
 
-const NO_POLE: &str = "no pole of this transfer function within 15 % of the eigenvalue, or a nearer one has it";
+const NO_POLE: &str =
+    "no pole of this transfer function within 15 % of the eigenvalue, or a nearer one has it";
 const DOUBTFUL: &str = "not certain: standard deviation of the frequency above 10 %, or residue below two";
 
 fn frequency(pole: Option<&PoleEstimate>) -> Cell {

@@ -31,7 +31,8 @@ impl Responses {
     fn of(study: &Study, identification: &Identification) -> Result<Self, Error> {
         let grid = Band::default().grid()?;
         let of_variant = |variant: &Variant| {
-            let response = analysis::frequency_response(&variant.trimmed, &variant.model.point.control, &grid)?;
+            let response =
+                analysis::frequency_response(&variant.trimmed, &variant.model.point.control, &grid)?;
             identification
                 .outputs
                 .iter()
@@ -116,9 +117,8 @@ fn distances(study: &Study, identification: &Identification, responses: &Respons
             let whole = bode_distance(response, searched, None)?;
             let seen = bode_distance(response, searched, Some(&weights))?;
             let mut row = vec![Cell::from(output.target.name()), name.into()];
-            let cells = |d: BodeDistance| {
-                [d.rms_magnitude_db, d.mean_magnitude_db, d.rms_phase_deg].map(Cell::from)
-            };
+            let cells =
+                |d: BodeDistance| [d.rms_magnitude_db, d.mean_magnitude_db, d.rms_phase_deg].map(Cell::from);
             row.extend(cells(whole));
             row.extend(cells(seen));
             table.push(row)?;

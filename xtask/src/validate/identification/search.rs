@@ -95,8 +95,12 @@ impl Kept {
     pub(crate) fn read(results: &Path) -> Result<(Self, Files), Error> {
         let directory = results.join(DIRECTORY);
         let kept = read_json(&directory.join(ORDERS))?;
-        let files = [ORDERS, CANDIDATES, DRAWING]
-            .map(|name| Ok((format!("{DIRECTORY}/{name}"), workspace::read(&directory.join(name))?)));
+        let files = [ORDERS, CANDIDATES, DRAWING].map(|name| {
+            Ok((
+                format!("{DIRECTORY}/{name}"),
+                workspace::read(&directory.join(name))?,
+            ))
+        });
         Ok((kept, files.into_iter().collect::<Result<_, Error>>()?))
     }
 
@@ -250,7 +254,11 @@ fn candidates(searches: &[(Target, OrderSearch)]) -> Result<Table, Error> {
                 trained_on(candidate.training).into(),
             ];
             row.extend(candidate.fits.iter().map(|f| rounded(*f)));
-            row.extend([rounded(candidate.average), rounded(unseen), rounded(candidate.bic)]);
+            row.extend([
+                rounded(candidate.average),
+                rounded(unseen),
+                rounded(candidate.bic),
+            ]);
             row.push(candidate.failure.as_deref().into());
             table.push(row)?;
         }
