@@ -55,6 +55,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) free_initial: bool,
     /// Whether the delay is an unknown.
     pub(crate) free_delay: bool,
+    /// Samples in one row of the equations; 1 for all of them.
+    pub(crate) block: usize,
     /// Root of the weight, by output and experiment.
     pub(crate) factors: Vec<Vec<f64>>,
 }
@@ -96,8 +98,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// The rows `0, stride, 2 stride, ..` with the measured values in the last column.
-    pub(crate) fn matrix(&self, extra: &[&Vec<f64>], stride: usize) -> Mat<f64> {
+    /// Rows of means over blocks of samples, the columns `extra` last.
+    pub(crate) fn matrix(&self, extra: &[&Vec<f64>], block: usize) -> Mat<f64> {
         let columns: Vec<&Vec<f64>> = self
             .local
             .iter()
@@ -105,22 +107,25 @@ impl Columns {
             .chain(&self.shared)
             .chain(extra.iter().copied())
             .collect();
-        matrix(&columns, stride)
+        matrix(&columns, block)
     }
 }
 
-/// Columns side by side, every `stride`-th row.
-pub(crate) fn matrix(columns: &[&Vec<f64>], stride: usize) -> Mat<f64> {
-    let rows = columns.first().map_or(0, |c| c.len().div_ceil(stride));
+/// Columns side by side, each `block` samples in one row: their sum over the root of their number.
+///
+/// The equations are linear, so they hold for sums as for samples; white noise keeps its variance and smooth signals
+/// their energy, at a fraction of the rows.
+pub(crate) fn matrix(columns: &[&Vec<f64>], block: usize) -> Mat<f64> {
+    let rows = columns.first().map_or(0, |c| c.len().div_ceil(block));
     let mut matrix = Mat::zeros(rows, columns.len());
     for (j, column) in columns.iter().enumerate() {
         let to = matrix.col_as_slice_mut(j);
-        if stride == 1 {
+        if block == 1 {
             to.copy_from_slice(column);
         } else {
-            to.iter_mut()
-                .zip(column.iter().step_by(stride))
-                .for_each(|(t, v)| *t = *v);
+            for (t, samples) in to.iter_mut().zip(column.chunks(block)) {
+                *t = samples.iter().sum::<f64>() / (samples.len() as f64).sqrt();
+            }
         }
     }
     matrix
@@ -171,8 +176,8 @@ impl Problem<'_> {
         own
     }
 
-    /// The best linear unknowns at a point, from every `stride`-th sample.
-    pub(crate) fn fit(&self, point: Point, stride: usize) -> Result<Fitted> {
+    /// The best linear unknowns at a point.
+    pub(crate) fn fit(&self, point: Point) -> Result<Fitted> {
         let timing = self.timing(point.delay);
         let bank = Bank::new(&point.blocks, timing)?;
         let freedom = Freedom::new(&point.blocks, self.zeros);
@@ -190,7 +195,7 @@ impl Problem<'_> {
             for (o, of_output) in records.iter_mut().enumerate() {
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], stride),
+                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
                     factor: self.factors[o][e],
                 });
             }
@@ -224,7 +229,7 @@ impl Problem<'_> {
                 n_shared = columns.shared.len();
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], 1),
+                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
                     factor: self.factors[o][e],
                 });
             }

@@ -26,8 +26,6 @@ use crate::start::bandwidth;
 const FREQUENCIES: usize = 90;
 /// Damping ratios of the grid.
 const DAMPINGS: [f64; 2] = [0.025, 0.1];
-/// Rows used for each column when candidates are compared.
-const ROWS_A_COLUMN: usize = 30;
 /// Weakest blocks tried in a round.
 const WEAKEST: usize = 4;
 /// Places tried for each of them.
@@ -47,9 +45,8 @@ const APART: f64 = 0.04;
 /// Responses of the candidates, which do not depend on the model.
 pub(crate) struct Scan {
     blocks: Vec<Block>,
-    /// Two columns a candidate, by experiment, thinned.
-    columns: Vec<Vec<Vec<f64>>>,
-    stride: usize,
+    /// Two columns a candidate, by experiment.
+    columns: Vec<Mat<f64>>,
 }
 
 impl Scan {
@@ -68,24 +65,17 @@ impl Scan {
                 })
             })
             .collect();
-        let rows = ROWS_A_COLUMN * 60;
-        let stride = (data.samples() / rows).clamp(1, 16);
         let bank = Bank::new(&blocks, problem.timing(0.0))?;
         let columns = data
             .experiments
             .iter()
             .map(|experiment| {
                 let x = bank.respond(&experiment.input, false).x;
-                x.into_iter()
-                    .map(|c| c.into_iter().step_by(stride).collect())
-                    .collect()
+                let columns: Vec<&Vec<f64>> = x.iter().collect();
+                matrix(&columns, problem.block)
             })
             .collect();
-        Ok(Self {
-            blocks,
-            columns,
-            stride,
-        })
+        Ok(Self { blocks, columns })
     }
 }
 
@@ -134,13 +124,13 @@ fn one_move(
     };
     for (i, block) in point.blocks.iter().enumerate() {
         if block.order() == 2 && point.blocks.len() > 1 {
-            let without = reduced.fit(without(point, i), scan.stride)?;
+            let without = reduced.fit(without(point, i))?;
             weak.push((i, without.cost()));
         }
     }
     weak.sort_by(|a, b| a.1.total_cmp(&b.1));
     for (i, _) in weak.into_iter().take(WEAKEST) {
-        let rest = reduced.fit(without(point, i), 1)?;
+        let rest = reduced.fit(without(point, i))?;
         for (block, expected) in places(&reduced, &rest, point.blocks[i], scan)? {
             if expected > cost * (1.0 + WORTH_TRYING) || *searches == 0 {
                 break;
@@ -153,7 +143,7 @@ fn one_move(
                 delay: point.delay,
             };
             let Ok(refined) = problem
-                .fit(moved, 1)
+                .fit(moved)
                 .and_then(|fitted| refine(problem, fitted, search))
             else {
                 continue;
@@ -214,11 +204,17 @@ fn gains(problem: &Problem<'_>, rest: &Fitted, scan: &Scan) -> Result<Vec<f64>> 
             let shared = problem.shared(rest, e, o, &forced, &ring);
             let own = problem.own(e, forced.x, &free, timing);
             n_own = own.len() + shared.len();
-            let thin = |c: &Vec<f64>| -> Vec<f64> { c.iter().step_by(scan.stride).copied().collect() };
-            let model: Vec<Vec<f64>> = local.iter().chain(&own).chain(&shared).map(thin).collect();
-            let measured = thin(&experiment.outputs[o]);
-            let all: Vec<&Vec<f64>> = model.iter().chain(&scan.columns[e]).chain([&measured]).collect();
-            let mut part = matrix(&all, 1);
+            let model: Vec<&Vec<f64>> = local.iter().chain(&own).chain(&shared).collect();
+            let model = matrix(&model, problem.block);
+            let measured = matrix(&[&experiment.outputs[o]], problem.block);
+            let candidates = &scan.columns[e];
+            let (rows, known) = (model.nrows(), model.ncols());
+            let mut part = Mat::zeros(rows, known + candidates.ncols() + 1);
+            part.submatrix_mut(0, 0, rows, known).copy_from(&model);
+            part.submatrix_mut(0, known, rows, candidates.ncols())
+                .copy_from(candidates);
+            part.submatrix_mut(0, known + candidates.ncols(), rows, 1)
+                .copy_from(&measured);
             part *= albatross_numerics::faer::Scale(problem.factors[o][e]);
             let n = local.len();
             eliminate(&mut part, n);
@@ -253,8 +249,7 @@ fn gains(problem: &Problem<'_>, rest: &Fitted, scan: &Scan) -> Result<Vec<f64>> 
             } else {
                 0.0
             };
-            // Thinned rows stand for all.
-            *gain += scan.stride as f64 * explained;
+            *gain += explained;
         }
     }
     Ok(gains)

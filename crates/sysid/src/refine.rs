@@ -78,6 +78,8 @@ pub struct Iteration {
     pub method: SearchMethod,
     /// Times the step was halved, or the damping raised.
     pub halvings: usize,
+    /// Samples summed up in one row of the equations; 1 in the last part of every search.
+    pub samples_a_row: usize,
 }
 
 /// Settings of the search.
@@ -139,7 +141,7 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
                 blocks,
                 delay: fitted.point.delay,
             };
-            fitted = problem.fit(point, 1)?;
+            fitted = problem.fit(point)?;
         }
         let decomposed = Decomposed::new(problem, &fitted)?;
         let expected = decomposed.explained() / fitted.cost();
@@ -156,6 +158,7 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
             expected,
             method: step.method,
             halvings: step.halvings,
+            samples_a_row: problem.block,
         });
         fitted = step.fitted;
         // The step that promised next to nothing has been taken: it is free.
@@ -368,7 +371,7 @@ fn try_step(problem: &Problem<'_>, from: &Fitted, step: &[f64], search: Search) 
     if point == from.point || !point.is_usable() || (search.stable && !point.is_stable()) {
         return None;
     }
-    let fitted = problem.fit(point, 1).ok()?;
+    let fitted = problem.fit(point).ok()?;
     (fitted.cost() < from.cost()).then_some(fitted)
 }
 

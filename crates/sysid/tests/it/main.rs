@@ -1,6 +1,11 @@
 //! Tests of the estimation as a whole.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops where it fails, and says what it skips"
+)]
 
 mod order20;
 mod rao_garnier;
