@@ -552,10 +552,10 @@ fn warnings(
         );
     }
     let nyquist = std::f64::consts::PI / problem.data.dt();
-    let beyond = model.poles().iter().filter(|p| p.im > nyquist).count();
+    let beyond = model.poles().iter().filter(|p| p.norm() > nyquist).count();
     if beyond > 0 {
         warnings.push(format!(
-            "{beyond} poles lie above the Nyquist frequency ({nyquist:.3} rad/s): the data say nothing of them; lower the order or sample faster"
+            "{beyond} poles lie above the Nyquist frequency ({nyquist:.3} rad/s) and stand for a direct path: lower the order, or ask for as many zeros as poles"
         ));
     }
     match uncertainty {

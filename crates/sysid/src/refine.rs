@@ -118,6 +118,8 @@ const ROUNDING: f64 = 1e-27;
 const LAST_STEP: f64 = 1e-3;
 /// Poles slower than this share of a radian over the longest record are drift: no step leads further down.
 const SLOWEST: f64 = 1e-3;
+/// Poles faster than this, in radians a sample, are a direct path: no step leads further up.
+const FASTEST: f64 = 10.0;
 
 /// Searches from a fitted point.
 pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Result<Refined> {
@@ -387,8 +389,10 @@ fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> P
             .iter()
             .map(|e| e.duration())
             .fold(0.0, f64::max);
-    let keep = |old: f64, change: f64, floor: f64| {
-        let new = old + change;
+    let fastest = FASTEST / problem.data.dt();
+    let keep = |old: f64, change: f64, [floor, ceiling]: [f64; 2]| {
+        let limit = ceiling.max(old.abs());
+        let new = (old + change).clamp(-limit, limit);
         if search.stable {
             new.max(0.1 * old).max(floor.min(old))
         } else {
@@ -404,11 +408,11 @@ fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> P
             let w = block.scale();
             match *block {
                 Block::First { a } => Block::First {
-                    a: keep(a, w * next(), slowest),
+                    a: keep(a, w * next(), [slowest, fastest]),
                 },
                 Block::Second { a1, a0 } => Block::Second {
-                    a1: keep(a1, w * next(), 0.0),
-                    a0: keep(a0, w * w * next(), slowest * slowest),
+                    a1: keep(a1, w * next(), [0.0, 2.0 * fastest]),
+                    a0: keep(a0, w * w * next(), [slowest.powi(2), fastest.powi(2)]),
                 },
             }
         })

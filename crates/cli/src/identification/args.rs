@@ -148,8 +148,11 @@ pub(crate) struct EstimationOptions {
     #[arg(long, value_name = "N", default_value_t = 6)]
     pub(crate) starts: usize,
     /// Best starts that are refined by the search.
-    #[arg(long, value_name = "N", default_value_t = 2)]
+    #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) refined: usize,
+    /// Most weak poles that are tried elsewhere after the search.
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub(crate) moves: usize,
     /// Seed of the starts that are drawn at random (those beyond the sixth).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
@@ -157,7 +160,7 @@ pub(crate) struct EstimationOptions {
     #[arg(long, value_name = "N", default_value_t = 60)]
     pub(crate) iterations: usize,
     /// Relative improvement of the cost at which a search ends.
-    #[arg(long, value_name = "X", default_value_t = 1e-8)]
+    #[arg(long, value_name = "X", default_value_t = 1e-6)]
     pub(crate) tolerance: f64,
     /// Transport delay of the input, known, in s.
     #[arg(long, value_name = "S", conflicts_with = "max_delay")]
@@ -418,6 +421,7 @@ impl EstimationOptions {
             seed: self.seed,
             refined: self.refined,
             iterations: self.iterations,
+            reallocations: self.moves,
             tolerance: self.tolerance,
             ..Options::new(poles, zeros)
         }
