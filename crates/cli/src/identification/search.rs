@@ -1,6 +1,7 @@
 //! `identify search`: the number of poles and zeros.
 
 use super::args::SearchOptions as Arguments;
+use super::figures::short_names;
 use super::identify::{Identified, present, settings};
 use super::records;
 use crate::output::Failure;
@@ -81,10 +82,20 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
+/// Training and excess of poles, numbers of poles, scores.
+type Curve = ((Training, usize), Vec<f64>, Vec<f64>);
+
 impl Searched {
+    /// Names of the records without their directories, where that tells them apart.
+    fn short_names(&self) -> Vec<&str> {
+        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        short_names(&names)
+    }
+
     /// What a candidate was trained on.
     fn training(&self, training: Training) -> String {
-        let name = |p: usize| self.names.get(p).map_or("", String::as_str);
+        let short = self.short_names();
+        let name = |p: usize| short.get(p).copied().unwrap_or_default();
         match training {
             Training::Merged => "all records".to_owned(),
             Training::Single(p) => name(p).to_owned(),
@@ -100,8 +111,8 @@ impl Searched {
             Column::text("trained on"),
         ];
         columns.extend(
-            self.names
-                .iter()
+            self.short_names()
+                .into_iter()
                 .map(|n| Column::new(n, "%", Format::Fixed(2)).in_group("fit")),
         );
         columns.push(Column::new("mean", "%", Format::Fixed(2)));
@@ -139,7 +150,7 @@ impl Searched {
     /// Mean fit on the records not seen (on all, for models of all records) over the number of poles, a curve for every
     /// training and excess of poles.
     pub(crate) fn figure(&self) -> Result<String, ReportError> {
-        let mut curves: Vec<((Training, usize), Vec<f64>, Vec<f64>)> = Vec::new();
+        let mut curves: Vec<Curve> = Vec::new();
         for candidate in &self.search.candidates {
             let Some(score) = candidate.score else { continue };
             let key = (candidate.training, candidate.poles - candidate.zeros);
@@ -164,6 +175,10 @@ impl Searched {
         let mut panel = Panel::over(axis);
         for (i, ((training, excess), np, score)) in curves.into_iter().enumerate() {
             let mut name = self.training(training);
+            if training == Training::Merged {
+                // No record is left to score it.
+                name += " (on themselves)";
+            }
             if excesses {
                 name = format!("{name}, nz = np - {excess}");
             }
