@@ -55,6 +55,9 @@ pub(crate) enum Error {
     /// From the algebra.
     #[error(transparent)]
     Numerics(#[from] albatross::numerics::Error),
+    /// From the identification.
+    #[error(transparent)]
+    Sysid(#[from] albatross::sysid::Error),
     /// From tables and plots.
     #[error(transparent)]
     Report(#[from] albatross::report::ReportError),

@@ -1,9 +1,10 @@
 //! Linear systems with a condition estimate, and least squares.
 
 use faer::linalg::solvers::{PartialPivLu, Qr, Solve, Svd};
+use faer::prelude::*;
 use faer::traits::ComplexField;
 
-use crate::matrix::{check_finite, check_shape, column};
+use crate::matrix::{axpy, check_finite, check_shape, column, dot};
 use crate::{C64, Error, Mat, MatRef, Result};
 
 /// Least reciprocal condition number of an equilibrated matrix that is still solved.
@@ -343,6 +344,48 @@ pub fn least_squares_with_rank(
     })
 }
 
+/// Column `j` from row `i` on; columns of an owned matrix are contiguous.
+fn column_from(a: MatMut<'_, f64>, j: usize, i: usize) -> &mut [f64] {
+    a.col_mut(j)
+        .try_as_col_major_mut()
+        .and_then(|column| column.as_slice_mut().get_mut(i..))
+        .unwrap_or_default()
+}
+
+/// Upper triangle R of the QR factorisation of A: min(rows, columns) x columns, without Q.
+///
+/// Column j of R always ends in row j, so the rows from j on belong to the columns from j on: what is left of a
+/// least-squares problem when the first j unknowns have been eliminated. [`faer`]'s factorisation steps over columns that
+/// depend on those before them and gives an echelon form there. Householder's method, column by column; on matrices of
+/// some ten thousand rows and fifty columns as fast as a blocked one. R' R = A' A; signs of the rows are arbitrary.
+pub fn triangle(mut a: Mat<f64>) -> Mat<f64> {
+    let (m, n) = (a.nrows(), a.ncols());
+    eliminate(&mut a, n);
+    Mat::from_fn(m.min(n), n, |i, j| if i <= j { a[(i, j)] } else { 0.0 })
+}
+
+/// Reflects the rows of A so that the first `n` columns become upper triangular; A is overwritten by the triangle and,
+/// from row and column `n` on, by what is left of the other columns. Entries below the triangle are not cleared.
+pub fn eliminate(a: &mut Mat<f64>, n: usize) {
+    let (m, columns) = (a.nrows(), a.ncols());
+    for j in 0..n.min(m).min(columns) {
+        let (mut left, mut right) = a.as_mut().split_at_col_mut(j + 1);
+        let v = column_from(left.rb_mut(), j, j);
+        let norm = dot(v, v).sqrt();
+        let Some(head) = v.first().copied().filter(|_| norm > 0.0) else {
+            continue;
+        };
+        let diagonal = -norm.copysign(head);
+        let tau = 1.0 / (norm * (norm + head.abs()));
+        v[0] = head - diagonal;
+        for k in 0..right.ncols() {
+            let column = column_from(right.rb_mut(), k, j);
+            axpy(-tau * dot(v, column), v, column);
+        }
+        v[0] = diagonal;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -407,6 +450,24 @@ mod tests {
                 ..
             })
         ));
+    }
+
+    /// R'R = A'A, for tall, square and wide matrices, with dependent columns and a column of zeros among them.
+    #[test]
+    fn val_triangle_has_the_same_products() {
+        for (m, n) in [(30, 7), (7, 7), (4, 7), (1, 3), (5, 1), (0, 2)] {
+            let a = Mat::from_fn(m, n, |i, j| match j {
+                2 => 0.0,
+                3 => 2.0,
+                4 => 1.0,
+                _ => ((3 * i + 5 * j) as f64).sin(),
+            });
+            let r = triangle(a.clone());
+            assert_eq!((r.nrows(), r.ncols()), (m.min(n), n));
+            let difference = r.transpose() * &r - a.transpose() * &a;
+            assert!(difference.norm_max() < 1e-13, "{m} x {n}");
+            assert!((0..r.nrows()).all(|i| (0..i.min(n)).all(|j| r[(i, j)] == 0.0)));
+        }
     }
 
     #[test]

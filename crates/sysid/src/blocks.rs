@@ -55,6 +55,13 @@ impl Block {
         }
     }
 
+    /// Blocks with the given poles \[rad/s\]: conjugate pairs by frequency, then real poles two by two, nearest together.
+    ///
+    /// Of conjugate members the one with positive imaginary part counts; an odd real pole gets a block of first order.
+    pub fn from_poles(poles: &[C64]) -> Vec<Self> {
+        from_poles(poles)
+    }
+
     /// The poles \[rad/s\], the member with positive imaginary part first.
     pub fn poles(self) -> Vec<C64> {
         match self {
@@ -119,19 +126,17 @@ impl Block {
 }
 
 /// Number of poles of a denominator.
-pub fn order(blocks: &[Block]) -> usize {
+pub(crate) fn order(blocks: &[Block]) -> usize {
     blocks.iter().map(|b| b.order()).sum()
 }
 
 /// Poles of a denominator \[rad/s\], block after block.
-pub fn poles(blocks: &[Block]) -> Vec<C64> {
+pub(crate) fn poles(blocks: &[Block]) -> Vec<C64> {
     blocks.iter().flat_map(|b| b.poles()).collect()
 }
 
-/// Blocks with the given poles: conjugate pairs by frequency, then real poles two by two, nearest together.
-///
-/// Of conjugate members the one with positive imaginary part counts; an odd real pole gets a block of first order.
-pub fn from_poles(poles: &[C64]) -> Vec<Block> {
+/// See [`Block::from_poles`].
+pub(crate) fn from_poles(poles: &[C64]) -> Vec<Block> {
     let mut pairs: Vec<C64> = poles.iter().copied().filter(|p| p.im > 0.0).collect();
     pairs.sort_by(|p, q| p.norm().total_cmp(&q.norm()));
     let mut blocks: Vec<Block> = pairs.into_iter().map(Block::pair).collect();

@@ -9,22 +9,13 @@
 //! of the longest record times the sum of the columns, however many experiments there are. This is variable projection
 //! (Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973) in the order of the structure; all by orthogonal transformations.
 
-use albatross_numerics::faer::linalg::solvers::Qr;
-use albatross_numerics::solve::least_squares_with_rank;
+use albatross_numerics::solve::{least_squares_with_rank, triangle};
 use albatross_numerics::{Mat, MatRef};
 
 use crate::Result;
 
 /// Singular values below this share of the largest, columns scaled to unit norm, count as zero.
 const RANK_TOLERANCE: f64 = 1e-12;
-
-/// Upper triangle of the QR factorisation of a matrix; fewer rows than columns are kept as they are.
-pub(crate) fn triangle(a: MatRef<'_, f64>) -> Mat<f64> {
-    if a.nrows() <= 1 || a.ncols() == 0 {
-        return a.to_owned();
-    }
-    Qr::new(a).thin_R().to_owned()
-}
 
 /// Matrices of equal width above each other.
 fn stack(parts: &[MatRef<'_, f64>]) -> Mat<f64> {
@@ -87,7 +78,7 @@ impl Elimination {
                 of_output
                     .into_iter()
                     .map(|record| {
-                        let mut r = triangle(record.matrix.as_ref());
+                        let mut r = triangle(record.matrix);
                         r *= albatross_numerics::faer::Scale(record.factor);
                         (record.local, r)
                     })
@@ -98,11 +89,11 @@ impl Elimination {
             .iter()
             .map(|of_output| {
                 let parts: Vec<MatRef<'_, f64>> = of_output.iter().map(|(n, r)| rest(r, *n)).collect();
-                triangle(stack(&parts).as_ref())
+                triangle(stack(&parts))
             })
             .collect();
         let parts: Vec<MatRef<'_, f64>> = outputs.iter().map(|r| rest(r, own)).collect();
-        let trailing = triangle(stack(&parts).as_ref());
+        let trailing = triangle(stack(&parts));
         Self {
             own,
             shared,
@@ -254,6 +245,40 @@ mod tests {
             assert!((found - dense).abs() < 1e-12);
         }
         assert!((found.cost - residual.squared_norm_l2()).abs() < 1e-13);
+    }
+
+    /// Local columns that repeat each other, and one of zeros, must not swallow the residual.
+    #[test]
+    fn regress_dependent_columns_leave_the_residual() {
+        let mut random = fastrand::Rng::with_seed(4);
+        let matrix = Mat::from_fn(200, 5, |i, j| match j {
+            0 | 1 => 1.0,
+            2 => 0.0,
+            3 => (0.1 * i as f64).sin(),
+            _ => random.f64() - 0.5,
+        });
+        let reduced = matrix.submatrix(0, 0, 200, 1).to_owned();
+        let alone = Mat::from_fn(200, 3, |i, j| match j {
+            0 => reduced[(i, 0)],
+            _ => matrix[(i, j + 2)],
+        });
+        let cost = |local: usize, matrix: Mat<f64>| {
+            let record = Record {
+                local,
+                matrix,
+                factor: 1.0,
+            };
+            Elimination::new(1, 0, vec![vec![record]])
+                .solve(&[])
+                .unwrap()
+                .cost
+        };
+        let (dependent, independent) = (cost(3, matrix), cost(1, alone));
+        // A direction of rounding errors is one of two hundred.
+        assert!(
+            (dependent / independent - 1.0).abs() < 0.1,
+            "{dependent} {independent}"
+        );
     }
 
     #[test]

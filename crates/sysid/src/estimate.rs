@@ -4,7 +4,9 @@ use albatross_numerics::C64;
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{Block, from_poles, order};
+use crate::data::mismatch;
 use crate::problem::{Fitted, Point, Problem};
+use crate::reallocate::{Scan, reallocate};
 use crate::refine::{Iteration, Refined, Search, SearchMethod, Stop, refine, total};
 use crate::relocate::{Sweeps, reflected, relocate};
 use crate::score::{self, InitialState};
@@ -26,7 +28,7 @@ pub enum InitialCondition {
 }
 
 /// How starting poles are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Initialisation {
     /// Refined instrumental variables in the basis of the poles.
@@ -37,6 +39,8 @@ pub enum Initialisation {
     Subspace,
     /// All of them; the best goes on.
     All,
+    /// These factors of the denominator, of a model at hand; as many poles as asked for.
+    Given(Vec<Block>),
 }
 
 /// Transport delay of the input.
@@ -88,6 +92,8 @@ pub struct Options {
     pub refined: usize,
     /// Most iterations of a search.
     pub iterations: usize,
+    /// Most poles that are moved to another place after the search.
+    pub reallocations: usize,
     /// Relative improvement of the cost at which the search ends.
     pub tolerance: f64,
     /// Whether standard deviations are computed.
@@ -108,9 +114,10 @@ impl Options {
             weights: Weights::Fit,
             starts: 6,
             seed: 0,
-            refined: 2,
+            refined: 3,
             iterations: 60,
-            tolerance: 1e-8,
+            reallocations: 8,
+            tolerance: 1e-6,
             uncertainty: true,
         }
     }
@@ -171,6 +178,7 @@ pub fn estimate(data: &DataSet, options: &Options) -> Result<Estimate> {
         zeros: options.zeros,
         free_initial,
         free_delay: false,
+        block: 1,
         factors,
     };
     let mut won = run(&problem, options)?;
@@ -180,7 +188,7 @@ pub fn estimate(data: &DataSet, options: &Options) -> Result<Estimate> {
             free_initial: true,
             ..problem.clone()
         };
-        let at_same_poles = free.fit(won.refined.fitted.point.clone(), 1)?;
+        let at_same_poles = free.fit(won.refined.fitted.point.clone())?;
         if improves(won.refined.fitted.cost(), at_same_poles.cost(), &problem) {
             let again = run(&free, options)?;
             if again.refined.fitted.cost() < won.refined.fitted.cost() {
@@ -212,13 +220,17 @@ struct Won {
     chosen: usize,
 }
 
-fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
-    let total = total(problem);
+fn run(full: &Problem<'_>, options: &Options) -> Result<Won> {
+    let total = total(full);
+    let coarse = Problem {
+        block: block(full.data, options),
+        ..full.clone()
+    };
     let mut reports = Vec::new();
     let mut candidates: Vec<(usize, Fitted)> = Vec::new();
     let mut last_failure = String::from("the relocation of poles diverged");
-    for start in start::all(problem.data, options) {
-        let found = begin(problem, options, &start);
+    for start in start::all(full.data, options) {
+        let found = begin(&coarse, options, &start);
         reports.push(StartReport {
             description: start.description(),
             relocated: found.as_ref().ok().map(|f| f.cost() / total),
@@ -242,17 +254,11 @@ fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
             Delay::Fixed(_) => 0.0,
         },
     };
-    let problem = Problem {
-        free_delay: matches!(options.delay, Delay::UpTo(_)),
-        ..problem.clone()
-    };
+    let free_delay = matches!(options.delay, Delay::UpTo(_));
+    let coarse = Problem { free_delay, ..coarse };
     let mut won: Option<(usize, Refined)> = None;
     for (start, fitted) in candidates.into_iter().take(options.refined.max(1)) {
-        // Relocation may have looked at a part of the samples.
-        let refined = match problem
-            .fit(fitted.point, 1)
-            .and_then(|f| refine(&problem, f, search))
-        {
+        let refined = match refine(&coarse, fitted, search) {
             Ok(refined) => refined,
             Err(error) => {
                 last_failure = error.to_string();
@@ -269,44 +275,70 @@ fn run(problem: &Problem<'_>, options: &Options) -> Result<Won> {
             won = Some((start, refined));
         }
     }
-    let (chosen, refined) = won.ok_or_else(|| Error::NoModel {
+    let (chosen, mut refined) = won.ok_or_else(|| Error::NoModel {
         poles: options.poles,
         zeros: options.zeros,
         starts: reports.len(),
         reason: format!("{last_failure}; lower the order, or check the data for drift and saturation"),
     })?;
+    if options.reallocations > 0 && options.iterations > 0 && refined.stop != Stop::Exact {
+        let scan = Scan::new(&coarse)?;
+        refined = reallocate(&coarse, refined, search, options.reallocations, &scan)?;
+    }
+    // All samples have the last word.
+    let full = Problem {
+        free_delay,
+        ..full.clone()
+    };
+    let last = refine(&full, full.fit(refined.fitted.point)?, search)?;
+    let mut log = refined.log;
+    log.extend(last.log);
     Ok(Won {
-        refined,
+        refined: Refined { log, ..last },
         starts: reports,
         chosen,
     })
 }
 
-/// Whether two starts led to the same minimum.
+/// Whether two starts led to the same neighbourhood: every coefficient of the denominators within a hundredth.
 fn same(a: &Fitted, b: &Fitted) -> bool {
-    (a.cost() - b.cost()).abs() <= 1e-6 * a.cost()
+    let near = |p: f64, q: f64, scale: f64| (p - q).abs() <= 0.01 * scale.abs();
+    let (a, b) = (&a.point, &b.point);
+    a.delay == b.delay
+        && a.blocks.len() == b.blocks.len()
+        && a.blocks.iter().zip(&b.blocks).all(|(p, q)| match (*p, *q) {
+            (Block::First { a: p }, Block::First { a: q }) => near(p, q, p),
+            (Block::Second { a1: p1, a0: p0 }, Block::Second { a1: q1, a0: q0 }) => {
+                near(p0, q0, p0) && near(p1, q1, p0.abs().sqrt())
+            }
+            _ => false,
+        })
 }
 
 /// Most sweeps of a relocation.
 const SWEEPS: usize = 16;
 /// Sweeps before instruments are used.
 const PLAIN: usize = 3;
-/// Rows that the relocation needs for every unknown.
-const ROWS_AN_UNKNOWN: usize = 25;
+/// Rows that starts, first searches and moves need for every unknown.
+const ROWS_AN_UNKNOWN: usize = 10;
+/// Angle that the fastest motion of interest may turn within a row \[rad\]: its amplitude falls by a sixth.
+const TURN_A_ROW: f64 = 2.0;
 
 /// Relocated poles of one start.
 fn begin(problem: &Problem<'_>, options: &Options, start: &Start) -> Result<Fitted> {
-    let stride = stride(problem.data, options);
     let relocated = |point: Point, most: usize, plain: usize| {
         let sweeps = Sweeps {
             most,
             plain,
-            stride,
             stable: options.stable,
         };
         relocate(problem, point, sweeps)
     };
     match start {
+        Start::Given { blocks, delay } => problem.fit(Point {
+            blocks: blocks.clone(),
+            delay: *delay,
+        }),
         Start::Subspace { .. } => {
             let settings = SubspaceOptions {
                 stable: options.stable,
@@ -318,13 +350,10 @@ fn begin(problem: &Problem<'_>, options: &Options, start: &Start) -> Result<Fitt
                 .iter()
                 .map(|p| if options.stable { reflected(*p) } else { *p })
                 .collect();
-            problem.fit(
-                Point {
-                    blocks: from_poles(&poles),
-                    delay: start.delay(),
-                },
-                stride,
-            )
+            problem.fit(Point {
+                blocks: from_poles(&poles),
+                delay: start.delay(),
+            })
         }
         Start::Spread { blocks, .. } | Start::Filters { blocks, .. } => {
             let point = Point {
@@ -342,12 +371,15 @@ fn begin(problem: &Problem<'_>, options: &Options, start: &Start) -> Result<Fitt
     }
 }
 
-/// Every how many samples the relocation looks at an equation: the filters run over all, and neighbouring rows of
+/// Samples in one row of the equations while a model is sought: filters run over all samples, and neighbouring ones of
 /// densely sampled data say the same.
-fn stride(data: &DataSet, options: &Options) -> usize {
+fn block(data: &DataSet, options: &Options) -> usize {
     let unknowns = 3 * options.poles + 2;
     let shortest = data.experiments.iter().map(|e| e.len()).min().unwrap_or(0);
-    (shortest / (ROWS_AN_UNKNOWN * unknowns)).clamp(1, 8)
+    let turn = TURN_A_ROW / (data.dt() * 1.5 * start::bandwidth(data)).max(f64::MIN_POSITIVE);
+    (shortest / (ROWS_AN_UNKNOWN * unknowns))
+        .min(turn as usize)
+        .clamp(1, 16)
 }
 
 /// Refuses what cannot be estimated.
@@ -359,6 +391,15 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
             zeros,
             expected: "at least one pole, and no more zeros than poles, are needed",
         });
+    }
+    if let Initialisation::Given(blocks) = &options.initialisation
+        && order(blocks) != poles
+    {
+        return Err(mismatch(
+            "poles of the starting denominator",
+            order(blocks),
+            poles,
+        ));
     }
     let limit = match options.delay {
         Delay::Fixed(delay) | Delay::UpTo(delay) => delay,

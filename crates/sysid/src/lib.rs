@@ -24,6 +24,7 @@ pub mod model;
 mod numerator;
 pub mod peaks;
 mod problem;
+mod reallocate;
 pub mod refine;
 mod relocate;
 pub mod resample;

@@ -13,6 +13,7 @@
 //! Parameters are counted in units of the block's scale w: da1 = w dp, da0 = w^2 dp, da = w dp.
 
 use albatross_numerics::Mat;
+use albatross_numerics::matrix::axpy;
 
 use crate::blocks::Block;
 use crate::elimination::{Elimination, Record, Unknowns};
@@ -54,6 +55,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) free_initial: bool,
     /// Whether the delay is an unknown.
     pub(crate) free_delay: bool,
+    /// Samples in one row of the equations; 1 for all of them.
+    pub(crate) block: usize,
     /// Root of the weight, by output and experiment.
     pub(crate) factors: Vec<Vec<f64>>,
 }
@@ -95,8 +98,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// The rows `0, stride, 2 stride, ..` with the measured values in the last column.
-    pub(crate) fn matrix(&self, extra: &[&Vec<f64>], stride: usize) -> Mat<f64> {
+    /// Rows of means over blocks of samples, the columns `extra` last.
+    pub(crate) fn matrix(&self, extra: &[&Vec<f64>], block: usize) -> Mat<f64> {
         let columns: Vec<&Vec<f64>> = self
             .local
             .iter()
@@ -104,22 +107,25 @@ impl Columns {
             .chain(&self.shared)
             .chain(extra.iter().copied())
             .collect();
-        matrix(&columns, stride)
+        matrix(&columns, block)
     }
 }
 
-/// Columns side by side, every `stride`-th row.
-pub(crate) fn matrix(columns: &[&Vec<f64>], stride: usize) -> Mat<f64> {
-    let rows = columns.first().map_or(0, |c| c.len().div_ceil(stride));
+/// Columns side by side, each `block` samples in one row: their sum over the root of their number.
+///
+/// The equations are linear, so they hold for sums as for samples; white noise keeps its variance and smooth signals
+/// their energy, at a fraction of the rows.
+pub(crate) fn matrix(columns: &[&Vec<f64>], block: usize) -> Mat<f64> {
+    let rows = columns.first().map_or(0, |c| c.len().div_ceil(block));
     let mut matrix = Mat::zeros(rows, columns.len());
     for (j, column) in columns.iter().enumerate() {
         let to = matrix.col_as_slice_mut(j);
-        if stride == 1 {
+        if block == 1 {
             to.copy_from_slice(column);
         } else {
-            to.iter_mut()
-                .zip(column.iter().step_by(stride))
-                .for_each(|(t, v)| *t = *v);
+            for (t, samples) in to.iter_mut().zip(column.chunks(block)) {
+                *t = samples.iter().sum::<f64>() / (samples.len() as f64).sqrt();
+            }
         }
     }
     matrix
@@ -170,8 +176,8 @@ impl Problem<'_> {
         own
     }
 
-    /// The best linear unknowns at a point, from every `stride`-th sample.
-    pub(crate) fn fit(&self, point: Point, stride: usize) -> Result<Fitted> {
+    /// The best linear unknowns at a point.
+    pub(crate) fn fit(&self, point: Point) -> Result<Fitted> {
         let timing = self.timing(point.delay);
         let bank = Bank::new(&point.blocks, timing)?;
         let freedom = Freedom::new(&point.blocks, self.zeros);
@@ -189,7 +195,7 @@ impl Problem<'_> {
             for (o, of_output) in records.iter_mut().enumerate() {
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], stride),
+                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
                     factor: self.factors[o][e],
                 });
             }
@@ -223,7 +229,7 @@ impl Problem<'_> {
                 n_shared = columns.shared.len();
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], 1),
+                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
                     factor: self.factors[o][e],
                 });
             }
@@ -277,11 +283,11 @@ impl Problem<'_> {
         for block in &fitted.point.blocks {
             let (a, b) = block.matrices();
             let n = block.order();
-            for i in 0..n {
-                for j in 0..n {
-                    albatross_numerics::matrix::axpy(c[at + i] * a[i][j], &forced.x[at + j], &mut rate);
+            for (c, (row, input)) in c[at..at + n].iter().zip(a.iter().zip(b)) {
+                for (a, x) in row.iter().zip(&forced.x[at..at + n]) {
+                    axpy(c * a, x, &mut rate);
                 }
-                albatross_numerics::matrix::axpy(c[at + i] * b[i], &delayed, &mut rate);
+                axpy(c * input, &delayed, &mut rate);
             }
             at += n;
         }
@@ -303,7 +309,7 @@ impl Problem<'_> {
             .map(|o| {
                 let mut y = combine(&own, |i| fitted.unknowns.own[o][i]);
                 for (column, f) in local.iter().zip(&fitted.unknowns.local[o][e]) {
-                    albatross_numerics::matrix::axpy(*f, column, &mut y);
+                    axpy(*f, column, &mut y);
                 }
                 y
             })

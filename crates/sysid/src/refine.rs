@@ -78,6 +78,8 @@ pub struct Iteration {
     pub method: SearchMethod,
     /// Times the step was halved, or the damping raised.
     pub halvings: usize,
+    /// Samples summed up in one row of the equations; 1 in the last part of every search.
+    pub samples_a_row: usize,
 }
 
 /// Settings of the search.
@@ -112,6 +114,11 @@ const HALVINGS: usize = 12;
 /// Share of the weighted sum of squares of the data that is rounding.
 const ROUNDING: f64 = 1e-27;
 
+/// Below this share of the tolerance even the last step is not worth its cost.
+const LAST_STEP: f64 = 1e-3;
+/// Poles slower than this share of a radian over the longest record are drift: no step leads further down.
+const SLOWEST: f64 = 1e-3;
+
 /// Searches from a fitted point.
 pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Result<Refined> {
     let total = total(problem);
@@ -134,11 +141,11 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
                 blocks,
                 delay: fitted.point.delay,
             };
-            fitted = problem.fit(point, 1)?;
+            fitted = problem.fit(point)?;
         }
         let decomposed = Decomposed::new(problem, &fitted)?;
         let expected = decomposed.explained() / fitted.cost();
-        if expected.is_nan() || expected < search.tolerance {
+        if expected.is_nan() || expected < LAST_STEP * search.tolerance {
             break Stop::Converged;
         }
         let Some(step) = descend(problem, &fitted, &decomposed, search, &mut memory) else {
@@ -151,8 +158,10 @@ pub(crate) fn refine(problem: &Problem<'_>, start: Fitted, search: Search) -> Re
             expected,
             method: step.method,
             halvings: step.halvings,
+            samples_a_row: problem.block,
         });
         fitted = step.fitted;
+        // The step that promised next to nothing has been taken: it is free.
         if gain < search.tolerance {
             break Stop::Converged;
         }
@@ -362,7 +371,7 @@ fn try_step(problem: &Problem<'_>, from: &Fitted, step: &[f64], search: Search) 
     if point == from.point || !point.is_usable() || (search.stable && !point.is_stable()) {
         return None;
     }
-    let fitted = problem.fit(point, 1).ok()?;
+    let fitted = problem.fit(point).ok()?;
     (fitted.cost() < from.cost()).then_some(fitted)
 }
 
@@ -371,9 +380,20 @@ fn try_step(problem: &Problem<'_>, from: &Fitted, step: &[f64], search: Search) 
 /// Where stability is asked for, no coefficient goes below a tenth of its value in one step: it can approach the
 /// boundary but not cross it.
 fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> Point {
-    let keep = |old: f64, change: f64| {
+    let slowest = SLOWEST
+        / problem
+            .data
+            .experiments
+            .iter()
+            .map(|e| e.duration())
+            .fold(0.0, f64::max);
+    let keep = |old: f64, change: f64, floor: f64| {
         let new = old + change;
-        if search.stable { new.max(0.1 * old) } else { new }
+        if search.stable {
+            new.max(0.1 * old).max(floor.min(old))
+        } else {
+            new
+        }
     };
     let mut values = step.iter().copied();
     let mut next = || values.next().unwrap_or(0.0);
@@ -384,11 +404,11 @@ fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> P
             let w = block.scale();
             match *block {
                 Block::First { a } => Block::First {
-                    a: keep(a, w * next()),
+                    a: keep(a, w * next(), slowest),
                 },
                 Block::Second { a1, a0 } => Block::Second {
-                    a1: keep(a1, w * next()),
-                    a0: keep(a0, w * w * next()),
+                    a1: keep(a1, w * next(), 0.0),
+                    a0: keep(a0, w * w * next(), slowest * slowest),
                 },
             }
         })

@@ -35,15 +35,13 @@ pub(crate) struct Sweeps {
     pub(crate) most: usize,
     /// Sweeps by plain least squares before instruments are used; as many as `most` for none.
     pub(crate) plain: usize,
-    /// Rows of the equations used: every so many samples. Filters run over all of them.
-    pub(crate) stride: usize,
     /// Whether unstable poles are reflected.
     pub(crate) stable: bool,
 }
 
 /// Sweeps from a start; the best point met, by output error.
 pub(crate) fn relocate(problem: &Problem<'_>, start: Point, sweeps: Sweeps) -> Result<Fitted> {
-    let mut fitted = problem.fit(start, sweeps.stride)?;
+    let mut fitted = problem.fit(start)?;
     let mut best = fitted.clone();
     for sweep in 0..sweeps.most {
         let instruments = sweep >= sweeps.plain;
@@ -58,7 +56,7 @@ pub(crate) fn relocate(problem: &Problem<'_>, start: Point, sweeps: Sweeps) -> R
         if !point.is_usable() {
             break;
         }
-        fitted = problem.fit(point, sweeps.stride)?;
+        fitted = problem.fit(point)?;
         if !fitted.cost().is_finite() {
             break;
         }
@@ -114,7 +112,7 @@ fn new_blocks(
                 .extend(output_bank.respond(&experiment.outputs[o], false).x);
             of_output.push(Record {
                 local: columns.local.len(),
-                matrix: columns.matrix(&[&experiment.outputs[o]], sweeps.stride),
+                matrix: columns.matrix(&[&experiment.outputs[o]], problem.block),
                 factor: problem.factors[o][e],
             });
         }

@@ -3,10 +3,11 @@
 use albatross_numerics::Mat;
 use serde::Serialize;
 
-use crate::elimination::{solve_triangle, triangle};
+use crate::elimination::solve_triangle;
 use crate::fit::nrmse_fit;
 use crate::numerator::combine;
 use crate::{DataSet, Experiment, Model, Result};
+use albatross_numerics::solve::triangle;
 
 /// What a record adds to the forced response of an output.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
@@ -83,7 +84,7 @@ fn simulate_record(
                 Some(column) => column[i],
                 None => measured[i] - simulated[i],
             });
-            let r = triangle(all.as_ref());
+            let r = triangle(all);
             let rows = n.min(r.nrows());
             let right: Vec<f64> = (0..rows).map(|i| r[(i, n)]).collect();
             local = solve_triangle(r.submatrix(0, 0, rows, n), &right)?;

@@ -29,12 +29,17 @@ pub(crate) enum Start {
     },
     /// Poles of a subspace identification.
     Subspace { delay: f64 },
+    /// A denominator at hand.
+    Given { blocks: Vec<Block>, delay: f64 },
 }
 
 impl Start {
     pub(crate) fn delay(&self) -> f64 {
         match self {
-            Self::Spread { delay, .. } | Self::Filters { delay, .. } | Self::Subspace { delay } => *delay,
+            Self::Spread { delay, .. }
+            | Self::Filters { delay, .. }
+            | Self::Subspace { delay }
+            | Self::Given { delay, .. } => *delay,
         }
     }
 
@@ -54,6 +59,7 @@ impl Start {
             }
             Self::Filters { band: b, .. } => format!("state-variable filters, {}", band(b)),
             Self::Subspace { .. } => "subspace".to_owned(),
+            Self::Given { .. } => "poles given".to_owned(),
         };
         if self.delay() > 0.0 {
             format!("{name}, delay {:.6} s", self.delay())
@@ -86,10 +92,14 @@ pub(crate) fn all(data: &DataSet, options: &Options) -> Vec<Start> {
                     _ => None,
                 })
             };
-            match options.initialisation {
+            match &options.initialisation {
                 Initialisation::Srivc => spread(delay),
                 Initialisation::Svf => filters().collect(),
                 Initialisation::Subspace => vec![Start::Subspace { delay }],
+                Initialisation::Given(blocks) => vec![Start::Given {
+                    blocks: blocks.clone(),
+                    delay,
+                }],
                 Initialisation::All => {
                     let mut starts = spread(delay);
                     starts.extend(filters());
@@ -179,7 +189,7 @@ const LINES: usize = 120;
 ///
 /// The spectrum is weighted with the frequency, for a mode counts by its share in the acceleration and not in the
 /// motion, and taken on a grid even over the logarithm.
-fn bandwidth(data: &DataSet) -> f64 {
+pub(crate) fn bandwidth(data: &DataSet) -> f64 {
     let nyquist = PI / data.dt();
     let mut widest = 0.0_f64;
     for experiment in &data.experiments {

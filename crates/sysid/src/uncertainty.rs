@@ -10,11 +10,11 @@
 
 use albatross_lti::Signal;
 use albatross_numerics::faer::linalg::solvers::Svd;
+use albatross_numerics::solve::triangle;
 use albatross_numerics::{C64, Mat};
 use serde::Serialize;
 
 use crate::blocks::Block;
-use crate::elimination::triangle;
 use crate::filters::Bank;
 use crate::numerator::tangents;
 use crate::problem::{Columns, Fitted, Problem};
@@ -176,7 +176,7 @@ impl Uncertainty {
                 at_local += columns.local.len();
                 let mut j = columns.matrix(&[], 1);
                 j *= albatross_numerics::faer::Scale(factor);
-                let r = triangle(j.as_ref());
+                let r = triangle(j.clone());
                 let white = r.transpose() * &r * albatross_numerics::faer::Scale(variance * factor * factor);
                 let coloured = coloured(&j, &residual, factor / spare.sqrt());
                 for (sum, part) in meat.iter_mut().zip([&white, &coloured]) {
@@ -431,11 +431,16 @@ impl NumeratorMap {
 
     /// Adds `factor` times the gradient of coefficient `i`.
     fn add(&self, i: usize, factor: f64, gradient: &mut [f64]) {
-        for j in 0..self.shared.ncols() {
-            gradient[j] += factor * self.shared[(i, j)];
+        for (j, g) in gradient.iter_mut().enumerate().take(self.shared.ncols()) {
+            *g += factor * self.shared[(i, j)];
         }
-        for j in 0..self.own.ncols() {
-            gradient[self.at + j] += factor * self.own[(i, j)];
+        for (j, g) in gradient
+            .iter_mut()
+            .skip(self.at)
+            .enumerate()
+            .take(self.own.ncols())
+        {
+            *g += factor * self.own[(i, j)];
         }
     }
 }
@@ -489,7 +494,7 @@ fn inverse_information(triangles: &[(Vec<usize>, Mat<f64>)], unknowns: usize) ->
         })
         .collect();
     let scaled = Mat::from_fn(rows, unknowns, |i, j| all[(i, j)] * scale[j]);
-    let r = triangle(scaled.as_ref());
+    let r = triangle(scaled);
     albatross_numerics::matrix::check_finite("the sensitivities", r.as_ref()).ok()?;
     let svd = Svd::new_thin(r.as_ref()).ok()?;
     let count = r.nrows().min(unknowns);

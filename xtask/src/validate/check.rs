@@ -7,7 +7,9 @@
 //! | Markdown | word by word outside measured blocks; numbers to one unit of their last printed place |
 //! | SVG | the texts; curves are drawn from the same numbers |
 //!
-//! Tables of measured times are left out, but must be there.
+//! Tables of measured times are left out, but must be there. Numbers at which an iterative search ends are compared to
+//! [`RELATIVE_ITERATED`] with the floor [`FLOOR_ITERATED`]: rounding, which differs between processors, moves the point
+//! at which the search is content. Directories are left out.
 
 use crate::error::Error;
 use crate::workspace;
@@ -19,15 +21,32 @@ use std::path::Path;
 pub(crate) const RELATIVE: f64 = 1e-6;
 /// Largest absolute difference of two numbers that count as equal however small they are.
 pub(crate) const FLOOR: f64 = 1e-9;
+/// The same for numbers at which an iterative search ends.
+pub(crate) const RELATIVE_ITERATED: f64 = 1e-2;
+/// Their floor.
+pub(crate) const FLOOR_ITERATED: f64 = 1e-2;
 
 /// Start of a block of the page that no other run repeats.
 pub(crate) const MEASURED: &str = "<!-- measured: left out of the comparison -->";
 /// Its end.
 pub(crate) const END_OF_MEASURED: &str = "<!-- end of measured -->";
+/// Start of a block of the page with numbers at which an iterative search ends.
+pub(crate) const ITERATED_BLOCK: &str = "<!-- iterated: compared loosely -->";
+/// Its end.
+pub(crate) const END_OF_ITERATED: &str = "<!-- end of iterated -->";
 
-/// Compares two directories of results; `skipped` are stems of files with measured times. Returns a line for each
-/// difference.
-pub(crate) fn compare(fresh: &Path, kept: &Path, skipped: &[&str]) -> Result<Vec<String>, Error> {
+/// Numbers that no other run repeats to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Times of the machine at hand.
+    Measured,
+    /// Ends of an iterative search.
+    Iterated,
+}
+
+/// Compares two directories of results; `kinds` are the stems of files with numbers of a special kind. Directories
+/// within them are left out. Returns a line for each difference.
+pub(crate) fn compare(fresh: &Path, kept: &Path, kinds: &[(&str, Kind)]) -> Result<Vec<String>, Error> {
     let (new, old) = (names(fresh)?, names(kept)?);
     let mut differences: Vec<String> = new
         .difference(&old)
@@ -39,9 +58,15 @@ pub(crate) fn compare(fresh: &Path, kept: &Path, skipped: &[&str]) -> Result<Vec
     );
     for name in new.intersection(&old) {
         let (stem, kind) = name.rsplit_once('.').unwrap_or((name, ""));
-        if skipped.contains(&stem) {
-            continue;
-        }
+        let kind_of = kinds
+            .iter()
+            .find(|(known, _)| *known == stem)
+            .map(|(_, kind)| *kind);
+        let tolerance = match kind_of {
+            Some(Kind::Measured) => continue,
+            Some(Kind::Iterated) => ITERATED,
+            None => ROUNDING,
+        };
         let (fresh, kept) = (
             workspace::read(&fresh.join(name))?,
             workspace::read(&kept.join(name))?,
@@ -50,14 +75,21 @@ pub(crate) fn compare(fresh: &Path, kept: &Path, skipped: &[&str]) -> Result<Vec
             "json" => {
                 let parse = |text: &str| serde_json::from_str::<Value>(text);
                 match (parse(&fresh), parse(&kept)) {
-                    (Ok(fresh), Ok(kept)) => values(&fresh, &kept),
+                    (Ok(fresh), Ok(kept)) => values(&fresh, &kept, tolerance),
                     (_, Err(e)) => vec![format!("is not JSON: {e}")],
                     (Err(e), _) => vec![format!("fresh file is not JSON: {e}")],
                 }
             }
             "svg" => words(&svg_texts(&fresh), &svg_texts(&kept), in_last_place),
-            "csv" => words(&fresh, &kept, |new, old, _| same(new, old)),
-            _ => words(&unmeasured(&fresh), &unmeasured(&kept), in_last_place),
+            "csv" => words(&fresh, &kept, |new, old, _| tolerance.holds(new, old)),
+            _ => {
+                let (fresh, kept) = (Page::split(&fresh), Page::split(&kept));
+                let mut found = words(&fresh.plain, &kept.plain, in_last_place);
+                found.extend(words(&fresh.iterated, &kept.iterated, |new, old, decimals| {
+                    in_last_place(new, old, decimals) || ITERATED.holds(new, old)
+                }));
+                found
+            }
         };
         differences.extend(found.into_iter().map(|what| format!("{name}: {what}")));
     }
@@ -66,34 +98,53 @@ pub(crate) fn compare(fresh: &Path, kept: &Path, skipped: &[&str]) -> Result<Vec
 
 fn names(directory: &Path) -> Result<BTreeSet<String>, Error> {
     let entries = std::fs::read_dir(directory).map_err(Error::file(directory))?;
-    entries
-        .map(|entry| {
-            Ok(entry
-                .map_err(Error::file(directory))?
-                .file_name()
-                .to_string_lossy()
-                .into_owned())
-        })
-        .collect()
+    let mut found = BTreeSet::new();
+    for entry in entries {
+        let entry = entry.map_err(Error::file(directory))?;
+        if !entry.path().is_dir() {
+            found.insert(entry.file_name().to_string_lossy().into_owned());
+        }
+    }
+    Ok(found)
 }
 
-fn same(new: f64, old: f64) -> bool {
-    new == old || (new - old).abs() <= FLOOR.max(RELATIVE * new.abs().max(old.abs()))
+/// How far two numbers may be apart that count as equal.
+#[derive(Debug, Clone, Copy)]
+struct Tolerance {
+    relative: f64,
+    floor: f64,
+}
+
+/// Of numbers that differ by rounding.
+const ROUNDING: Tolerance = Tolerance {
+    relative: RELATIVE,
+    floor: FLOOR,
+};
+/// Of numbers at which an iterative search ends.
+const ITERATED: Tolerance = Tolerance {
+    relative: RELATIVE_ITERATED,
+    floor: FLOOR_ITERATED,
+};
+
+impl Tolerance {
+    fn holds(self, new: f64, old: f64) -> bool {
+        new == old || (new - old).abs() <= self.floor.max(self.relative * new.abs().max(old.abs()))
+    }
 }
 
 /// Differences of two JSON values, each with the path to it.
-fn values(new: &Value, old: &Value) -> Vec<String> {
+fn values(new: &Value, old: &Value, tolerance: Tolerance) -> Vec<String> {
     let mut found = Vec::new();
-    walk("", new, old, &mut found);
+    walk("", (new, old), tolerance, &mut found);
     found
 }
 
-fn walk(path: &str, new: &Value, old: &Value, found: &mut Vec<String>) {
-    match (new, old) {
+fn walk(path: &str, pair: (&Value, &Value), tolerance: Tolerance, found: &mut Vec<String>) {
+    match pair {
         (Value::Object(new), Value::Object(old)) => {
             for (key, value) in new {
                 match old.get(key) {
-                    Some(other) => walk(&format!("{path}/{key}"), value, other, found),
+                    Some(other) => walk(&format!("{path}/{key}"), (value, other), tolerance, found),
                     None => found.push(format!("{path}/{key} is missing")),
                 }
             }
@@ -106,33 +157,47 @@ fn walk(path: &str, new: &Value, old: &Value, found: &mut Vec<String>) {
                 found.push(format!("{path} has {} entries, now {}", old.len(), new.len()));
             }
             for (index, (new, old)) in new.iter().zip(old).enumerate() {
-                walk(&format!("{path}/{index}"), new, old, found);
+                walk(&format!("{path}/{index}"), (new, old), tolerance, found);
             }
         }
         (Value::Number(a), Value::Number(b)) => {
             let (a, b) = (a.as_f64().unwrap_or(f64::NAN), b.as_f64().unwrap_or(f64::NAN));
-            if !same(a, b) {
+            if !tolerance.holds(a, b) {
                 found.push(format!("{path} is {b}, now {a}"));
             }
         }
-        _ if new == old => {}
-        _ => found.push(format!("{path} is {old}, now {new}")),
+        (new, old) if new == old => {}
+        (new, old) => found.push(format!("{path} is {old}, now {new}")),
     }
 }
 
-/// The text without measured blocks.
-fn unmeasured(text: &str) -> String {
-    let mut kept = String::new();
-    let mut measured = false;
-    for line in text.lines() {
-        measured |= line.trim() == MEASURED;
-        if !measured {
-            kept.push_str(line);
-            kept.push('\n');
+/// A page without its measured blocks.
+#[derive(Debug, PartialEq)]
+struct Page {
+    /// What is compared to the last place.
+    plain: String,
+    /// The blocks of iterated numbers.
+    iterated: String,
+}
+
+impl Page {
+    fn split(text: &str) -> Self {
+        let (mut plain, mut iterated) = (String::new(), String::new());
+        let (mut in_measured, mut in_iterated) = (false, false);
+        for line in text.lines() {
+            let mark = line.trim();
+            in_measured |= mark == MEASURED;
+            in_iterated |= mark == ITERATED_BLOCK;
+            if !in_measured {
+                let kept = if in_iterated { &mut iterated } else { &mut plain };
+                kept.push_str(line);
+                kept.push('\n');
+            }
+            in_measured &= mark != END_OF_MEASURED;
+            in_iterated &= mark != END_OF_ITERATED;
         }
-        measured &= line.trim() != END_OF_MEASURED;
+        Self { plain, iterated }
     }
-    kept
 }
 
 /// What an SVG document says in words, a line for each text.
@@ -207,7 +272,7 @@ fn shortened(line: &str) -> String {
 fn in_last_place(new: f64, old: f64, decimals: usize) -> bool {
     let unit = 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
     // A hundredth of a unit for the rounding of this very subtraction.
-    same(new, old) || (decimals > 0 && (new - old).abs() < 1.01 * unit)
+    ROUNDING.holds(new, old) || (decimals > 0 && (new - old).abs() < 1.01 * unit)
 }
 
 /// Splits a line into numbers and what is between them. Runs of blanks and dashes, which align tables, count as one.
@@ -266,12 +331,12 @@ mod tests {
     #[test]
     fn json_numbers_are_compared_to_tolerance_and_named() {
         let old = json!({"rows": [{"a": 1.0, "b": "x"}, {"a": 0.0}], "gone": 1});
-        assert!(values(&old, &old).is_empty());
+        assert!(values(&old, &old, ROUNDING).is_empty());
         let new = json!({"rows": [{"a": 1.0 + 5e-7, "b": "x"}, {"a": 5e-10}], "gone": 1});
-        assert!(values(&new, &old).is_empty());
+        assert!(values(&new, &old, ROUNDING).is_empty());
         let new = json!({"rows": [{"a": 1.0 + 5e-6, "b": "y"}, {"a": null}], "new": 1});
         assert_eq!(
-            values(&new, &old),
+            values(&new, &old, ROUNDING),
             [
                 "/rows/0/a is 1, now 1.000005",
                 "/rows/0/b is \"x\", now \"y\"",
@@ -299,8 +364,33 @@ mod tests {
     #[test]
     fn measured_blocks_are_left_out() {
         let page = |t: &str| format!("a\n{MEASURED}\n{t} s\n{END_OF_MEASURED}\nb\n");
-        assert_eq!(unmeasured(&page("1.0")), "a\nb\n");
-        assert_eq!(unmeasured(&page("1.0")), unmeasured(&page("2.0")));
+        assert_eq!(Page::split(&page("1.0")).plain, "a\nb\n");
+        assert_eq!(Page::split(&page("1.0")), Page::split(&page("2.0")));
+    }
+
+    #[test]
+    fn iterated_numbers_are_compared_loosely_on_the_page_and_in_files() {
+        let page = |t: &str| format!("1.00\n{ITERATED_BLOCK}\n{t} rad/s\n{END_OF_ITERATED}\n2.00\n");
+        let directories = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let write = |fresh: &str, kept: &str| {
+            for (directory, number) in [(directories.0.path(), fresh), (directories.1.path(), kept)] {
+                std::fs::write(directory.join("README.md"), page(number)).unwrap();
+                std::fs::write(directory.join("i.json"), format!("{{\"x\": {number}}}")).unwrap();
+            }
+            compare(
+                directories.0.path(),
+                directories.1.path(),
+                &[("i", Kind::Iterated)],
+            )
+            .unwrap()
+        };
+        let within = 100.0 * (1.0 + 0.5 * RELATIVE_ITERATED);
+        let beyond = 100.0 * (1.0 + 2.0 * RELATIVE_ITERATED);
+        assert!(write("100.00", &format!("{within:.2}")).is_empty());
+        assert_eq!(write("100.00", &format!("{beyond:.2}")).len(), 2);
+        // Directories, as that of the kept search, are not compared.
+        std::fs::create_dir(directories.1.path().join("search")).unwrap();
+        assert!(write("100.00", "100.00").is_empty());
     }
 
     #[test]
@@ -320,7 +410,7 @@ mod tests {
         write(kept.path(), "c.csv", "x\n1\n");
         write(fresh.path(), "t.csv", "s\n1\n");
         write(kept.path(), "t.csv", "s\n2\n");
-        let found = compare(fresh.path(), kept.path(), &["t"]).unwrap();
+        let found = compare(fresh.path(), kept.path(), &[("t", Kind::Measured)]).unwrap();
         assert_eq!(
             found,
             [

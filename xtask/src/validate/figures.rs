@@ -1,10 +1,13 @@
 //! The figures of the report.
 
+use super::identification::{Identification, Output};
 use super::reference::{MANOEUVRES, QUANTITIES, Quantity};
 use super::study::{AVL, CORRECTED, Study, Variant};
 use crate::error::Error;
-use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, LinePlot, Panel, Series, Style};
+use albatross::lti::frequency::unwrap_deg;
+use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Dash, LinePlot, Panel, Series, Style};
 use albatross::strip::slopes::base_name;
+use albatross::sysid::Band;
 
 /// A drawn figure.
 #[derive(Debug, Clone)]
@@ -19,11 +22,28 @@ pub(crate) struct Figure {
     pub(crate) svg: String,
 }
 
-/// Figures 4 and 7 to 13 of the paper, of the surrogate.
-pub(crate) fn all(study: &Study) -> Result<Vec<Figure>, Error> {
-    let mut figures = vec![strip_lift(study)?, longitudinal(study)?, bode(study)?];
+/// Figures 4 and 7 to 13 of the paper, of the surrogate, and the elastic range of Figure 8.
+pub(crate) fn all(study: &Study, identification: &Identification) -> Result<Vec<Figure>, Error> {
+    let mut figures = vec![strip_lift(study)?, longitudinal(study)?];
+    let limits = study.inputs.case.bode;
+    figures.push(Figure {
+        file: "figure08_bode.svg".into(),
+        alternative: "Bode diagrams from the elevator to the vertical acceleration at cockpit, last passenger and right \
+                      wing tip, and to the pitch rate"
+            .into(),
+        caption: "**Figure 8.** Frequency responses from the elevator: the linearised models, and the transfer functions \
+                  identified from the reference's histories at the searched orders, over the paper's band."
+            .into(),
+        svg: bode(study, identification, [limits.from_rad_s, limits.to_rad_s])?,
+    });
+    figures.push(Figure {
+        file: "figure08b_bode_elastic.svg".into(),
+        alternative: "The same Bode diagrams from 10 to 100 rad/s".into(),
+        caption: "**Figure 8, elastic range.** The same over the elastic modes.".into(),
+        svg: bode(study, identification, ELASTIC)?,
+    });
     for (index, number) in [(0, 9), (1, 10), (2, 11)] {
-        figures.push(accelerations(study, index, number)?);
+        figures.push(accelerations(study, identification, index, number)?);
     }
     figures.push(claim(study, 12, 0, 0, (0.0, 10.0))?);
     figures.push(claim(study, 13, 4, 2, (0.4, 2.0))?);
@@ -142,12 +162,22 @@ fn panel(study: &Study, quantity: usize, manoeuvre: usize, variants: &[usize]) -
     panel
 }
 
-/// Figure 8: frequency responses from the elevator.
-fn bode(study: &Study) -> Result<Figure, Error> {
-    let limits = study.inputs.case.bode;
+/// Range of the second half of Figure 8 [rad/s].
+const ELASTIC: [f64; 2] = [10.0, 100.0];
+
+/// Name of the identified transfer functions in every figure.
+const IDENTIFIED: &str = "identified from the reference";
+
+/// Style of the identified transfer functions: over the reference's history, which they should cover, broken.
+fn identified_style() -> Style {
+    Style::model(4)
+}
+
+/// Figure 8: frequency responses from the elevator between two frequencies.
+fn bode(study: &Study, identification: &Identification, [from, to]: [f64; 2]) -> Result<String, Error> {
     let mut plot = BodePlot::new(
         "Frequency response to the elevator",
-        Axis::log("Frequency", "rad/s").with_limits(limits.from_rad_s, limits.to_rad_s),
+        Axis::log("Frequency", "rad/s").with_limits(from, to),
     );
     for (quantity, reference) in [
         (3, "1 (m/s^{2})/rad"),
@@ -159,22 +189,32 @@ fn bode(study: &Study) -> Result<Figure, Error> {
             continue;
         };
         let mut channel = BodeChannel::new(format!("δ_{{e}} to {}", title(shown))).with_reference(reference);
+        if let Some(output) = identification.of_quantity(quantity) {
+            channel = channel.with(identified_curve(output)?);
+        }
         for (index, variant) in study.variants.iter().enumerate() {
             channel = channel.with(curve(variant, shown, index)?);
         }
         plot = plot.with(channel);
     }
     plot.width = 1000.0;
-    Ok(Figure {
-        file: "figure08_bode.svg".into(),
-        alternative: "Bode diagrams from the elevator to the vertical acceleration at cockpit, last passenger and right \
-                      wing tip, and to the pitch rate"
-            .into(),
-        caption: "**Figure 8.** Frequency responses of the linearised models from the elevator. The reference's transfer \
-                  functions wait for the identification crate."
-            .into(),
-        svg: plot.without_heading().render()?.markup,
-    })
+    Ok(plot.without_heading().render()?.markup)
+}
+
+/// The identified frequency response over the paper's band.
+fn identified_curve(output: &Output) -> Result<BodeCurve, Error> {
+    let grid = Band::default().grid()?;
+    let response = output.searched.response(&grid)?;
+    let magnitude: Vec<f64> = response.iter().map(|h| 20.0 * h.norm().log10()).collect();
+    let phase: Vec<f64> = response.iter().map(|h| h.arg().to_degrees()).collect();
+    Ok(BodeCurve::new(
+        IDENTIFIED,
+        // Behind the models.
+        identified_style().with_dash(Dash::Solid).with_width(3.2),
+        grid,
+        magnitude,
+        unwrap_deg(&phase),
+    ))
 }
 
 fn title(shown: &Quantity) -> String {
@@ -197,7 +237,12 @@ fn curve(variant: &Variant, shown: &Quantity, index: usize) -> Result<BodeCurve,
 }
 
 /// Figures 9 to 11: accelerations along the structure and pitch rate after one doublet.
-fn accelerations(study: &Study, manoeuvre: usize, number: u32) -> Result<Figure, Error> {
+fn accelerations(
+    study: &Study,
+    identification: &Identification,
+    manoeuvre: usize,
+    number: u32,
+) -> Result<Figure, Error> {
     let (name, shown) = MANOEUVRES.get(manoeuvre).copied().unwrap_or_default();
     // The shorter the doublet, the sooner all is over.
     let limits = [(0.0, 10.0), (0.4, 3.0), (0.4, 2.0)]
@@ -209,19 +254,31 @@ fn accelerations(study: &Study, manoeuvre: usize, number: u32) -> Result<Figure,
         Axis::new("Time", "s").with_limits(limits.0, limits.1),
     );
     for quantity in [3, 4, 5, 1] {
-        plot.panels
-            .push(panel(study, quantity, manoeuvre, &[0, 1, 2]).with_height(170.0));
+        let mut panel = panel(study, quantity, manoeuvre, &[0, 1, 2]).with_height(170.0);
+        if let Some(history) = study.reference.histories.get(manoeuvre)
+            && let Some(output) = identification.of_quantity(quantity)
+            && let Some(values) = output.history(study, manoeuvre)?
+        {
+            panel.series.push(Series::new(
+                IDENTIFIED,
+                identified_style(),
+                history.time.clone(),
+                values,
+            ));
+        }
+        plot.panels.push(panel);
     }
     Ok(Figure {
         file: format!("figure{number:02}_{name}.svg"),
         alternative: format!(
             "Vertical acceleration at cockpit, last passenger and right wing tip, and pitch rate, after the {shown} elevator \
-             doublet: reference and three variants"
+             doublet: reference, three variants and identified transfer functions"
         ),
         caption: format!(
             "**Figure {number}.** The {shown} elevator doublet: vertical acceleration (positive down, gravity not included) \
-             along the structure and pitch rate of the mean axes. Fits are in the table above; they are taken over the \
-             whole record, of which the figure shows {} to {} s.",
+             along the structure and pitch rate of the mean axes: reference, three variants, and the transfer functions \
+             identified from the reference's histories at the searched orders. Fits are in the tables; they are taken \
+             over the whole record, of which the figure shows {} to {} s.",
             limits.0, limits.1
         ),
         svg: plot.without_heading().render()?.markup,

@@ -1,11 +1,13 @@
 //! `cargo xtask validate`: the F25-like case against the paper and the reference.
 //!
 //! Runs the case of `fixtures/f25-like` for its variants, and writes `docs/validation/`: a page, every table as CSV and
-//! JSON, every figure as SVG. `--check` does the same in a temporary directory and compares.
+//! JSON, every figure as SVG. `--check` does the same in a temporary directory and compares. `--search` searches the orders
+//! of the identified transfer functions first; without it those kept in `docs/validation/search/` are used.
 //!
 //! | module | subject |
 //! |---|---|
 //! | [`study`] | the computation |
+//! | [`identification`] | transfer functions identified from the reference's histories |
 //! | [`mod@reference`], [`paper`] | what it is compared with |
 //! | [`tables`], [`fits`], [`account`], [`figures`] | what is shown |
 //! | [`page`] | the page and the provenance of its inputs |
@@ -15,6 +17,7 @@ mod account;
 mod check;
 mod figures;
 mod fits;
+mod identification;
 mod page;
 mod paper;
 mod reference;
@@ -25,6 +28,9 @@ pub(crate) use paper::read_json;
 
 use crate::error::Error;
 use crate::workspace;
+use check::Kind;
+use identification::Identification;
+use identification::search::{self, Kept};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use study::Study;
@@ -39,6 +45,9 @@ pub(crate) struct Options {
     /// Write nothing; compare fresh results with those kept, measured times apart
     #[arg(long)]
     check: bool,
+    /// Search the orders of the identified transfer functions first (minutes), and keep them in docs/validation/search
+    #[arg(long, conflicts_with = "check")]
+    search: bool,
     /// Directory of the results; docs/validation if not given
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -49,6 +58,7 @@ impl Options {
     pub(crate) fn check() -> Self {
         Self {
             check: true,
+            search: false,
             out: None,
         }
     }
@@ -60,11 +70,12 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let directory = options.out.clone().unwrap_or_else(|| root.join(KEPT));
     let since = Instant::now();
     eprintln!("validate: the F25-like case");
-    let results = Results::compute(&root)?;
+    let results = Results::compute(&root, options.search)?;
     if options.check {
         let fresh = tempfile::tempdir().map_err(Error::file(&std::env::temp_dir()))?;
         results.write(fresh.path())?;
-        let differences = check::compare(fresh.path(), &directory, &results.measured())?;
+        let mut differences = check::compare(fresh.path(), &directory, &results.kinds)?;
+        differences.extend(results.stale.iter().cloned());
         for difference in &differences {
             println!("{difference}");
         }
@@ -77,6 +88,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         }
         println!("{} files agree with {}", results.files.len(), directory.display());
     } else {
+        if let Some(remark) = &results.stale {
+            eprintln!("warning: {remark}");
+        }
         results.write(&directory)?;
         println!("{} files written to {}", results.files.len(), directory.display());
     }
@@ -88,38 +102,50 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
 struct Results {
     /// Name and text.
     files: Vec<(String, String)>,
-    /// Stems of the files with measured times.
-    measured: Vec<&'static str>,
+    /// Tables of measured and of iterated numbers: stem and kind.
+    kinds: Vec<(&'static str, Kind)>,
+    /// A remark if the kept orders belong to other histories.
+    stale: Option<String>,
 }
 
 impl Results {
-    fn compute(root: &Path) -> Result<Self, Error> {
+    fn compute(root: &Path, search: bool) -> Result<Self, Error> {
         let mut study = Study::run(root)?;
         let since = Instant::now();
         let account = account::run(&study)?;
         study
             .measured
             .stage("experiments on the difference to the reference", since);
+        let (kept, kept_files) = if search {
+            search::run(root, &study)?
+        } else {
+            Kept::read(&root.join(KEPT))?
+        };
+        let stale = kept.stale(root)?;
+        let since = Instant::now();
+        let identification = Identification::run(&study, kept)?;
+        study.measured.stage(
+            "identification of four transfer functions at two orders, two threads",
+            since,
+        );
         let mut tables: Vec<Named> = vec![Named::new("inputs", page::inputs(root, &study)?)];
         tables.extend(tables::all(&study)?);
         tables.extend(fits::all(&study)?);
         tables.extend(account.tables.iter().cloned());
-        let figures = figures::all(&study)?;
+        tables.extend(identification.tables(&study)?);
+        let figures = figures::all(&study, &identification)?;
         let mut files = vec![(
             "README.md".to_owned(),
-            page::write(&study, &account, &tables, &figures)?,
+            page::write(&study, &account, &identification, &tables, &figures)?,
         )];
         for named in &tables {
             files.push((format!("{}.csv", named.stem), named.table.to_csv()));
             files.push((format!("{}.json", named.stem), pretty(&named.table.to_json())?));
         }
         files.extend(figures.into_iter().map(|figure| (figure.file, figure.svg)));
-        let measured = tables.iter().filter(|t| t.measured).map(|t| t.stem).collect();
-        Ok(Self { files, measured })
-    }
-
-    fn measured(&self) -> Vec<&str> {
-        self.measured.clone()
+        files.extend(kept_files);
+        let kinds = tables.iter().filter_map(|t| Some((t.stem, t.kind?))).collect();
+        Ok(Self { files, kinds, stale })
     }
 
     /// Writes every file whole. The page comes last, when all that it shows is there.

@@ -1,9 +1,13 @@
 //! The page: what is compared with what, the tables and figures in order, and what they say.
 
 use super::account::{self, Account};
-use super::check::{END_OF_MEASURED, FLOOR, MEASURED, RELATIVE};
+use super::check::{
+    END_OF_ITERATED, END_OF_MEASURED, FLOOR, FLOOR_ITERATED, ITERATED_BLOCK, Kind, MEASURED, RELATIVE,
+    RELATIVE_ITERATED,
+};
 use super::figures::Figure;
 use super::fits;
+use super::identification::{Identification, search, text};
 use super::reference::MANOEUVRES;
 use super::study::{AVL, CORRECTED, Study, VARIANTS, control_index};
 use super::tables::{self, Named};
@@ -78,7 +82,7 @@ fn own(file: &str) -> String {
 }
 
 /// The 64-bit FNV-1a hash (Fowler, Noll & Vo).
-fn fnv1a(bytes: &[u8]) -> u64 {
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })
@@ -98,25 +102,33 @@ impl Parts<'_> {
             .iter()
             .find(|t| t.stem == stem)
             .ok_or_else(|| missing(stem))?;
-        if named.measured {
-            self.page.paragraph(MEASURED);
+        let block = named.kind.map(|kind| match kind {
+            Kind::Measured => (MEASURED, END_OF_MEASURED),
+            Kind::Iterated => (ITERATED_BLOCK, END_OF_ITERATED),
+        });
+        if let Some((start, _)) = block {
+            self.page.paragraph(start);
         }
         self.page.table(&named.table);
         self.page
             .paragraph(&format!("[CSV]({stem}.csv), [JSON]({stem}.json)"));
-        if named.measured {
-            self.page.paragraph(END_OF_MEASURED);
+        if let Some((_, end)) = block {
+            self.page.paragraph(end);
         }
         Ok(())
     }
 
     fn figure(&mut self, number: u32) -> Result<(), Error> {
-        let start = format!("figure{number:02}");
+        self.drawing(&format!("figure{number:02}_"))
+    }
+
+    /// The figure whose file begins so.
+    fn drawing(&mut self, start: &str) -> Result<(), Error> {
         let figure = self
             .figures
             .iter()
-            .find(|f| f.file.starts_with(&start))
-            .ok_or_else(|| missing(&start))?;
+            .find(|f| f.file.starts_with(start))
+            .ok_or_else(|| missing(start))?;
         self.page
             .image(&figure.file, &figure.alternative, &figure.caption);
         Ok(())
@@ -135,6 +147,7 @@ fn missing(what: &str) -> Error {
 pub(crate) fn write(
     study: &Study,
     account: &Account,
+    identification: &Identification,
     tables: &[Named],
     figures: &[Figure],
 ) -> Result<String, Error> {
@@ -147,7 +160,8 @@ pub(crate) fn write(
     longitudinal(&mut parts)?;
     fitted(&mut parts, study)?;
     reasons(&mut parts, study, account)?;
-    frequency_domain(&mut parts, study)?;
+    identified(&mut parts, study, identification)?;
+    frequency_domain(&mut parts)?;
     modes(&mut parts, study)?;
     cost(&mut parts)?;
     Ok(parts.page.finish())
@@ -197,7 +211,8 @@ fn introduction(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
     parts.table("inputs")?;
     parts.page.paragraph(&format!(
         "Albatross {}, Rust {} or later. Numbers agree between machines to rounding: `--check` allows {RELATIVE:.0e} of a \
-         value and {FLOOR:.0e} in all, one unit of the last place on this page, and leaves measured times out.",
+         value and {FLOOR:.0e} in all, one unit of the last place on this page, {RELATIVE_ITERATED:.0e} and \
+         {FLOOR_ITERATED:.0e} of what is identified, and leaves measured times out.",
         env!("CARGO_PKG_VERSION"),
         env!("CARGO_PKG_RUST_VERSION"),
     ));
@@ -379,10 +394,25 @@ fn reasons(parts: &mut Parts<'_>, study: &Study, account: &Account) -> Result<()
     Ok(())
 }
 
-fn frequency_domain(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
-    parts.page.heading(2, "Frequency domain");
-    parts.figure(8)?;
+/// Tables 4 and 5.
+fn identified(parts: &mut Parts<'_>, study: &Study, identification: &Identification) -> Result<(), Error> {
+    let [fits, truth, model] = text::outcome(study, identification)?;
+    parts
+        .page
+        .heading(2, "Identification from the reference's histories")
+        .paragraph(text::introduction())
+        .paragraph("What came of it:")
+        .bullets([fits.as_str(), truth.as_str(), model.as_str()])
+        .paragraph("What it cannot tell:")
+        .bullets(text::limits().iter().map(String::as_str));
     parts.table("table4_fits_of_identified")?;
+    parts.table("table4_search")?;
+    parts.page.image(
+        &format!("{}/{}", search::DIRECTORY, search::DRAWING),
+        "Mean fit on the three histories against the number of poles, trained on each history alone and on all",
+        "**Search of the orders.** Mean fit on the three histories against the number of poles, one zero less. \
+         All candidates are in [search/candidates.csv](search/candidates.csv).",
+    );
     parts.table("table5_poles")?;
     let claims = &study.paper.recomputed.table5_claims;
     parts.page.paragraph(&format!(
@@ -396,6 +426,20 @@ fn frequency_domain(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
         claims.n_all_above_6,
         claims.max_all_printed
     ));
+    for stem in ["table5_matching", "table5_all_poles", "table5_unmatched"] {
+        parts.table(stem)?;
+    }
+    Ok(())
+}
+
+/// Figure 8, and what it shows in numbers.
+fn frequency_domain(parts: &mut Parts<'_>) -> Result<(), Error> {
+    parts.page.heading(2, "Frequency domain");
+    parts.figure(8)?;
+    parts.drawing("figure08b_")?;
+    for stem in ["bode_distance", "bode_peak_counts", "bode_peaks"] {
+        parts.table(stem)?;
+    }
     Ok(())
 }
 

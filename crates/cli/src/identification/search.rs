@@ -82,7 +82,7 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// Training and excess of poles, numbers of poles, scores.
+/// Training and excess of poles of a curve, numbers of poles, scores.
 type Curve = ((Training, usize), Vec<f64>, Vec<f64>);
 
 impl Searched {

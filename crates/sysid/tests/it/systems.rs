@@ -6,14 +6,14 @@ use albatross_sysid::{DataSet, Experiment, Intersample};
 
 /// Poles and residues: one of each conjugate pair.
 #[derive(Debug, Clone)]
-pub struct Modal {
-    pub poles: Vec<C64>,
-    pub residues: Vec<C64>,
+pub(crate) struct Modal {
+    pub(crate) poles: Vec<C64>,
+    pub(crate) residues: Vec<C64>,
 }
 
 impl Modal {
     /// A state space in the real modal form: x' = [re im; -im re] x + [2; 0] u, y = [Re r, Im r] x.
-    pub fn state_space(&self) -> StateSpace {
+    pub(crate) fn state_space(&self) -> StateSpace {
         let n = 2 * self.poles.len();
         let mut a = Mat::zeros(n, n);
         let (mut b, mut c) = (Mat::zeros(n, 1), Mat::zeros(1, n));
@@ -30,7 +30,7 @@ impl Modal {
 
 /// Ten pairs of an aircraft's longitudinal motion: the short period and elastic modes, damping ratio 0.35 and 0.02 to
 /// 0.1, residues of both signs within a decade and a half.
-pub fn ten_pairs(frequencies: [f64; 10], seed: u64) -> Modal {
+pub(crate) fn ten_pairs(frequencies: [f64; 10], seed: u64) -> Modal {
     let mut random = fastrand::Rng::with_seed(seed);
     let mut poles = Vec::new();
     let mut residues = Vec::new();
@@ -43,11 +43,11 @@ pub fn ten_pairs(frequencies: [f64; 10], seed: u64) -> Modal {
     Modal { poles, residues }
 }
 
-pub const FREQUENCIES: [f64; 10] = [1.75, 18.7, 24.0, 32.3, 37.3, 42.8, 54.3, 65.9, 69.6, 73.4];
-pub const UP_TO_92: [f64; 10] = [1.75, 19.6, 24.2, 32.3, 37.3, 42.7, 54.2, 65.9, 73.4, 92.3];
+pub(crate) const FREQUENCIES: [f64; 10] = [1.75, 18.7, 24.0, 32.3, 37.3, 42.8, 54.3, 65.9, 69.6, 73.4];
+pub(crate) const UP_TO_92: [f64; 10] = [1.75, 19.6, 24.2, 32.3, 37.3, 42.7, 54.2, 65.9, 73.4, 92.3];
 
 /// Square doublet of one period after half a second of rest.
-pub fn doublet(frequency: f64, samples: usize) -> Vec<f64> {
+pub(crate) fn doublet(frequency: f64, samples: usize) -> Vec<f64> {
     let half = (500.0 / frequency).round() as usize;
     (0..samples)
         .map(|k| match k.checked_sub(500) {
@@ -59,14 +59,14 @@ pub fn doublet(frequency: f64, samples: usize) -> Vec<f64> {
 }
 
 /// Exact response of a system to a sampled input.
-pub fn response(system: &StateSpace, u: &[f64], dt: f64, hold: Hold) -> Vec<f64> {
+pub(crate) fn response(system: &StateSpace, u: &[f64], dt: f64, hold: Hold) -> Vec<f64> {
     let rows: Vec<Vec<f64>> = u.iter().map(|v| vec![*v]).collect();
     let history = simulate(system, dt, &rows, None, hold).unwrap();
     (0..u.len()).map(|k| history.outputs.row(k)[0]).collect()
 }
 
 /// Doublets of 0.5, 3 and 10 Hz, 5 s at 1 kHz, with white noise of a signal-to-noise ratio in dB.
-pub fn doublets(system: &StateSpace, snr_db: Option<f64>, seed: u64) -> DataSet {
+pub(crate) fn doublets(system: &StateSpace, snr_db: Option<f64>, seed: u64) -> DataSet {
     let mut noise = Noise::new(seed);
     let experiments = [0.5, 3.0, 10.0]
         .iter()
@@ -82,7 +82,7 @@ pub fn doublets(system: &StateSpace, snr_db: Option<f64>, seed: u64) -> DataSet 
     data(experiments)
 }
 
-pub fn data(experiments: Vec<Experiment>) -> DataSet {
+pub(crate) fn data(experiments: Vec<Experiment>) -> DataSet {
     DataSet::try_new(
         Signal::new("u", "1"),
         vec![Signal::new("y", "1")],
@@ -93,21 +93,21 @@ pub fn data(experiments: Vec<Experiment>) -> DataSet {
 }
 
 /// Gaussian noise.
-pub struct Noise(fastrand::Rng);
+pub(crate) struct Noise(fastrand::Rng);
 
 impl Noise {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(fastrand::Rng::with_seed(seed))
     }
 
     /// Box and Muller (1958).
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         let u = 1.0 - self.0.f64();
         (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * self.0.f64()).cos()
     }
 
     /// Adds white noise at a ratio of variances in dB; its standard deviation.
-    pub fn add(&mut self, y: &mut [f64], snr_db: f64) -> f64 {
+    pub(crate) fn add(&mut self, y: &mut [f64], snr_db: f64) -> f64 {
         let n = y.len() as f64;
         let mean = y.iter().sum::<f64>() / n;
         let variance = y.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n;

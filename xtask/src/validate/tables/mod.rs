@@ -1,10 +1,10 @@
 //! The tables of the report, one file each for the paper's tables and the project's own.
 
 mod cost;
-mod identification;
 mod modes;
 mod peaks;
 
+use super::check::Kind;
 use super::study::Study;
 use crate::error::Error;
 use albatross::report::Table;
@@ -17,8 +17,8 @@ pub(crate) struct Named {
     /// Stem of the CSV and JSON files.
     pub(crate) stem: &'static str,
     pub(crate) table: Table,
-    /// Whether it holds times of the machine at hand, which no other run repeats.
-    pub(crate) measured: bool,
+    /// How its numbers come about, if no other run repeats them to rounding.
+    pub(crate) kind: Option<Kind>,
 }
 
 impl Named {
@@ -26,12 +26,20 @@ impl Named {
         Self {
             stem,
             table,
-            measured: false,
+            kind: None,
+        }
+    }
+
+    /// A table of numbers that an iterative search found.
+    pub(crate) fn iterated(stem: &'static str, table: Table) -> Self {
+        Self {
+            kind: Some(Kind::Iterated),
+            ..Self::new(stem, table)
         }
     }
 }
 
-/// The paper's Tables 3 to 8 with the columns of this project, and the rigid-body modes.
+/// The paper's Tables 3 and 6 to 8 with the columns of this project, and the rigid-body modes.
 pub(crate) fn all(study: &Study) -> Result<Vec<Named>, Error> {
     Ok(vec![
         Named::new("trim", peaks::trim(study)?),
@@ -40,13 +48,10 @@ pub(crate) fn all(study: &Study) -> Result<Vec<Named>, Error> {
             "table3_paper_differences",
             peaks::paper_differences(&study.paper)?,
         ),
-        Named::new("table4_fits_of_identified", identification::table4(study)?),
-        Named::new("table5_poles", identification::table5(study)?),
         Named::new("table6_cost", cost::quoted(study)?),
         Named {
-            stem: "table6_measured",
-            table: cost::measured(study)?,
-            measured: true,
+            kind: Some(Kind::Measured),
+            ..Named::new("table6_measured", cost::measured(study)?)
         },
         Named::new("table7_structural_modes", modes::structural(study)?),
         Named::new("table8_aeroelastic_modes", modes::aeroelastic(study)?),
