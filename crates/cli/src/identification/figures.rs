@@ -72,11 +72,11 @@ pub(crate) fn fits(title: &str, data: &DataSet, simulated: &[Simulated]) -> Resu
             .iter()
             .zip(&model.fits)
             .map(|(output, fit)| {
-                let fit = fit.map_or("constant".to_owned(), |f| format!("{f:.2} %"));
+                let fit = fit.map_or("constant".to_owned(), |f| format!("{f:.2}\u{a0}%"));
                 if data.outputs.len() == 1 {
                     format!("fit {fit}")
                 } else {
-                    format!("{} {fit}", output.name)
+                    format!("{}\u{a0}{fit}", output.name)
                 }
             })
             .collect();
@@ -95,7 +95,8 @@ pub(crate) fn fits(title: &str, data: &DataSet, simulated: &[Simulated]) -> Resu
                 panel_of(output)
                     .with(Series::new(
                         "measured",
-                        Style::reference(),
+                        // Noise drawn wide would hide the model.
+                        Style::reference().with_width(1.6),
                         time.clone(),
                         measured.clone(),
                     ))

@@ -1,6 +1,7 @@
 //! `identify search`: the number of poles and zeros.
 
 use super::args::SearchOptions as Arguments;
+use super::figures::short_names;
 use super::identify::{Identified, present, settings};
 use super::records;
 use crate::output::Failure;
@@ -85,9 +86,16 @@ fn style() -> ProgressStyle {
 type Curve = ((Training, usize), Vec<f64>, Vec<f64>);
 
 impl Searched {
+    /// Names of the records without their directories, where that tells them apart.
+    fn short_names(&self) -> Vec<&str> {
+        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        short_names(&names)
+    }
+
     /// What a candidate was trained on.
     fn training(&self, training: Training) -> String {
-        let name = |p: usize| self.names.get(p).map_or("", String::as_str);
+        let short = self.short_names();
+        let name = |p: usize| short.get(p).copied().unwrap_or_default();
         match training {
             Training::Merged => "all records".to_owned(),
             Training::Single(p) => name(p).to_owned(),
@@ -103,8 +111,8 @@ impl Searched {
             Column::text("trained on"),
         ];
         columns.extend(
-            self.names
-                .iter()
+            self.short_names()
+                .into_iter()
                 .map(|n| Column::new(n, "%", Format::Fixed(2)).in_group("fit")),
         );
         columns.push(Column::new("mean", "%", Format::Fixed(2)));
@@ -167,6 +175,10 @@ impl Searched {
         let mut panel = Panel::over(axis);
         for (i, ((training, excess), np, score)) in curves.into_iter().enumerate() {
             let mut name = self.training(training);
+            if training == Training::Merged {
+                // No record is left to score it.
+                name += " (on themselves)";
+            }
             if excesses {
                 name = format!("{name}, nz = np - {excess}");
             }

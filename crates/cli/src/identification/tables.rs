@@ -225,6 +225,7 @@ fn log(estimate: &Estimate) -> Result<Table, ReportError> {
             Column::new("expected gain", "", Format::Scientific(1)),
             Column::text("direction"),
             Column::new("halvings", "", Format::Fixed(0)),
+            Column::new("samples a row", "", Format::Fixed(0)),
         ],
     );
     for (i, iteration) in estimate.iterations.iter().enumerate() {
@@ -239,6 +240,7 @@ fn log(estimate: &Estimate) -> Result<Table, ReportError> {
             Cell::from(iteration.expected),
             Cell::from(direction),
             Cell::from(iteration.halvings),
+            Cell::from(iteration.samples_a_row),
         ])?;
     }
     Ok(table)
