@@ -13,7 +13,7 @@ use crate::score::{self, InitialState};
 use crate::start::{self, Start};
 use crate::subspace::{self, SubspaceOptions};
 use crate::uncertainty::Uncertainty;
-use crate::{DataSet, Error, Model, Result};
+use crate::{DataSet, Error, Experiment, Model, Result};
 
 /// What is assumed of the state at the first sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -188,10 +188,13 @@ pub fn estimate(data: &DataSet, options: &Options) -> Result<Estimate> {
             free_initial: true,
             ..problem.clone()
         };
+        let cost = won.refined.fitted.cost();
         let at_same_poles = free.fit(won.refined.fitted.point.clone())?;
-        if improves(won.refined.fitted.cost(), at_same_poles.cost(), &problem) {
+        // Poles found under a wrong assumption may hide that it is wrong: records that begin in motion get both.
+        let in_doubt = !data.experiments.iter().all(begins_at_rest);
+        if in_doubt || improves(cost, at_same_poles.cost(), &problem) {
             let again = run(&free, options)?;
-            if again.refined.fitted.cost() < won.refined.fitted.cost() {
+            if improves(cost, again.refined.fitted.cost(), &problem) {
                 won = again;
                 initial_estimated = true;
             }
@@ -207,6 +210,18 @@ pub fn estimate(data: &DataSet, options: &Options) -> Result<Estimate> {
 
 /// Threshold of MATLAB's AutoInitThreshold: an initial state is worth its unknowns beyond it.
 const WORTH_AN_INITIAL_STATE: f64 = 1.05;
+
+/// Samples looked at for rest.
+const REST: usize = 10;
+/// Largest rms at rest as a share of that of the record.
+const STILL: f64 = 0.1;
+
+/// Whether input and outputs stand still at zero at the beginning of a record.
+fn begins_at_rest(experiment: &Experiment) -> bool {
+    let rms = |v: &[f64]| (v.iter().map(|v| v * v).sum::<f64>() / v.len().max(1) as f64).sqrt();
+    let still = |v: &Vec<f64>| v.len() > REST && rms(&v[..REST]) <= STILL * rms(v);
+    still(&experiment.input) && experiment.outputs.iter().all(still)
+}
 
 fn improves(zero: f64, free: f64, problem: &Problem<'_>) -> bool {
     // Differences of exact fits are rounding.

@@ -7,6 +7,7 @@
     reason = "a test stops where it fails, and says what it skips"
 )]
 
+mod kinds;
 mod order20;
 mod rao_garnier;
 mod real_data;
