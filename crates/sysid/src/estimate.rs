@@ -305,6 +305,14 @@ fn run(full: &Problem<'_>, options: &Options) -> Result<Won> {
         free_delay,
         ..full.clone()
     };
+    let search = Search {
+        most: if coarse.block > 1 {
+            search.most.min(LAST_ITERATIONS)
+        } else {
+            search.most
+        },
+        ..search
+    };
     let last = refine(&full, full.fit(refined.fitted.point)?, search)?;
     let mut log = refined.log;
     log.extend(last.log);
@@ -330,6 +338,8 @@ fn same(a: &Fitted, b: &Fitted) -> bool {
         })
 }
 
+/// Most iterations on all samples, from the minimum on sums of them.
+const LAST_ITERATIONS: usize = 20;
 /// Most sweeps of a relocation.
 const SWEEPS: usize = 16;
 /// Sweeps before instruments are used.

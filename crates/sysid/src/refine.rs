@@ -110,7 +110,7 @@ struct Memory {
 }
 
 /// Most halvings of a step.
-const HALVINGS: usize = 12;
+const HALVINGS: usize = 8;
 /// Share of the weighted sum of squares of the data that is rounding.
 const ROUNDING: f64 = 1e-27;
 
