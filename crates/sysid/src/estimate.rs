@@ -241,11 +241,16 @@ fn run(full: &Problem<'_>, options: &Options) -> Result<Won> {
         block: block(full.data, options),
         ..full.clone()
     };
+    // Instruments want more rows than the search.
+    let finer = Problem {
+        block: (coarse.block / 3).max(1),
+        ..full.clone()
+    };
     let mut reports = Vec::new();
     let mut candidates: Vec<(usize, Fitted)> = Vec::new();
     let mut last_failure = String::from("the relocation of poles diverged");
     for start in start::all(full.data, options) {
-        let found = begin(&coarse, options, &start);
+        let found = begin(&finer, options, &start).and_then(|fitted| coarse.fit(fitted.point));
         reports.push(StartReport {
             description: start.description(),
             relocated: found.as_ref().ok().map(|f| f.cost() / total),
