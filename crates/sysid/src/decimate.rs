@@ -2,6 +2,7 @@
 
 use albatross_numerics::C64;
 
+use crate::fourier::transform;
 use crate::{DataSet, Experiment, Result};
 
 /// Samples wanted for a period of the highest frequency that matters.
@@ -142,52 +143,14 @@ fn periodogram(values: &[f64]) -> Vec<f64> {
     let n = values.len().next_power_of_two();
     let mut x: Vec<C64> = values.iter().map(|v| C64::new(*v, 0.0)).collect();
     x.resize(n, C64::new(0.0, 0.0));
-    fourier(&mut x);
+    transform(&mut x);
     x.iter().take((n / 2).max(1)).map(|v| v.norm_sqr()).collect()
-}
-
-/// Fourier transform in place, of a length that is a power of two.
-fn fourier(x: &mut [C64]) {
-    let n = x.len();
-    let bits = n.trailing_zeros();
-    for i in 0..n {
-        let j = i.reverse_bits().checked_shr(usize::BITS - bits).unwrap_or(0);
-        if i < j {
-            x.swap(i, j);
-        }
-    }
-    let mut half = 1;
-    while half < n {
-        for block in x.chunks_exact_mut(2 * half) {
-            let (low, high) = block.split_at_mut(half);
-            for (k, (p, q)) in low.iter_mut().zip(high).enumerate() {
-                let turn = C64::from_polar(1.0, -std::f64::consts::PI * k as f64 / half as f64);
-                let odd = turn * *q;
-                (*p, *q) = (*p + odd, *p - odd);
-            }
-        }
-        half *= 2;
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::arx::tests::{data_of, gaussian};
-
-    #[test]
-    fn val_fourier_transform_matches_its_definition() {
-        let values: Vec<C64> = (0..16)
-            .map(|k| C64::new((1.3 * k as f64).sin(), 0.1 * k as f64))
-            .collect();
-        let mut fast = values.clone();
-        fourier(&mut fast);
-        for (m, f) in fast.iter().enumerate() {
-            let turn = |k: usize| C64::from_polar(1.0, -std::f64::consts::TAU * (k * m) as f64 / 16.0);
-            let slow: C64 = values.iter().enumerate().map(|(k, v)| v * turn(k)).sum();
-            assert!((f - slow).norm() < 1e-13);
-        }
-    }
 
     fn burst(frequency: f64, dt: f64, n: usize, noise: f64) -> DataSet {
         let mut random = fastrand::Rng::with_seed(21);

@@ -1,6 +1,4 @@
-//! Autocovariance at all lags by the fast Fourier transform.
-
-use std::f64::consts::PI;
+//! Fourier transform, and the autocovariance at all lags by means of it.
 
 use albatross_numerics::C64;
 
@@ -22,34 +20,11 @@ pub(crate) fn autocovariance(x: &[f64]) -> Vec<f64> {
     values.iter().take(n).map(|v| v.re * scale).collect()
 }
 
-/// Forward transform in place; the length is a power of two (J. W. Cooley, J. W. Tukey, Math. Comput. 19, 1965).
-fn transform(values: &mut [C64]) {
-    let n = values.len();
-    if n < 2 {
-        return;
-    }
-    let shift = usize::BITS - n.trailing_zeros();
-    for i in 0..n {
-        let j = i.reverse_bits() >> shift;
-        if i < j {
-            values.swap(i, j);
-        }
-    }
-    let mut half = 1;
-    while half < n {
-        // Factors by sine and cosine, not by repeated products, whose errors add up.
-        let factors: Vec<C64> = (0..half)
-            .map(|k| C64::from_polar(1.0, -PI * k as f64 / half as f64))
-            .collect();
-        for block in values.chunks_exact_mut(2 * half) {
-            let (low, high) = block.split_at_mut(half);
-            for ((a, b), factor) in low.iter_mut().zip(high).zip(&factors) {
-                let product = *b * factor;
-                (*a, *b) = (*a + product, *a - product);
-            }
-        }
-        half *= 2;
-    }
+/// Forward transform in place.
+pub(crate) fn transform(values: &mut [C64]) {
+    rustfft::FftPlanner::new()
+        .plan_fft_forward(values.len())
+        .process(values);
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Least squares over more rows than memory should hold: the triangle of their QR decomposition.
 
-use albatross_numerics::faer::linalg::solvers::Qr;
 use albatross_numerics::{Mat, MatRef, solve};
 
 use crate::Result;
@@ -57,15 +56,10 @@ impl Triangle {
     }
 
     fn reduce(&mut self) {
-        let n = self.block.ncols();
-        let qr = Qr::new(self.block.subrows(0, self.filled));
-        let r = qr.thin_R();
-        self.filled = self.filled.min(n);
-        for j in 0..n {
-            for i in 0..self.filled {
-                self.block[(i, j)] = if i <= j { r[(i, j)] } else { 0.0 };
-            }
-        }
+        // Not faer's factorisation: with dependent columns its rows no longer belong to the columns of their number.
+        let r = solve::triangle(self.block.subrows(0, self.filled).to_owned());
+        self.filled = r.nrows();
+        self.block.subrows_mut(0, self.filled).copy_from(&r);
     }
 }
 
