@@ -17,12 +17,14 @@ use crate::workspace;
 use std::path::{Path, PathBuf};
 
 /// Crates in pipeline order: directory, package, and what it is.
-pub(crate) const PIPELINE: [(&str, &str, Kind); 12] = [
+pub(crate) const PIPELINE: [(&str, &str, Kind); 14] = [
     ("crates/nastran", "albatross-nastran", Kind::Reader),
     ("crates/avl", "albatross-avl", Kind::Reader),
     ("crates/numerics", "albatross-numerics", Kind::Physics),
     ("crates/lti", "albatross-lti", Kind::Physics),
     ("crates/sysid", "albatross-sysid", Kind::Physics),
+    ("crates/fem", "albatross-fem", Kind::Physics),
+    ("crates/vlm", "albatross-vlm", Kind::Physics),
     ("crates/modal", "albatross-modal", Kind::Physics),
     ("crates/strip", "albatross-strip", Kind::Physics),
     ("crates/flight", "albatross-flight", Kind::Physics),

@@ -1,0 +1,1 @@
+//! Finite elements of a Nastran deck: stiffness and mass, constraints, normal modes.

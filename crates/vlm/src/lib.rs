@@ -1,0 +1,1 @@
+//! Vortex lattice of an AVL geometry.
