@@ -36,9 +36,10 @@ const SEARCHES_A_MOVE: usize = 3;
 const ITERATIONS: usize = 15;
 /// A move is kept if it lowers the cost by this share.
 const WORTH_KEEPING: f64 = 1e-5;
-/// A place is tried if the cost expected there exceeds the present one by no more than this share: what is expected is
-/// linearised, and the search goes further.
-const WORTH_TRYING: f64 = 0.02;
+/// A place is tried if the cost expected there exceeds the present one by no more than this factor of it. What is expected
+/// is linearised about poles that the removal has left behind, and tenfold too high where a neighbour had leant on the pair
+/// removed; the number of searches bounds the work.
+const WORTH_TRYING: f64 = 1.0;
 /// Places nearer than this, in the logarithm of the frequency, are one.
 const APART: f64 = 0.04;
 
