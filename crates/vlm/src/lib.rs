@@ -1,1 +1,31 @@
 //! Vortex lattice of an AVL geometry.
+mod airfoil;
+mod body;
+mod coefficients;
+mod condition;
+mod error;
+mod flow;
+mod forces;
+mod influence;
+mod kernel;
+mod lattice;
+mod method;
+mod output;
+mod polar;
+mod spacing;
+mod symmetry;
+mod trefftz;
+mod trim;
+mod units;
+
+pub use body::LatticeBody;
+pub use condition::Condition;
+pub use error::{Error, Result};
+pub use flow::{Flow, Solver};
+pub use influence::{Factorised, Influence};
+pub use kernel::{CoreModel, CoreRadii};
+pub use lattice::{Files, Lattice, LatticeStrip, LatticeSurface, NormalChange, PanelChange, V3, Vortex};
+pub use method::Method;
+pub use output::Solution;
+pub use trefftz::Trefftz;
+pub use trim::{Target, Trim};

@@ -1,0 +1,270 @@
+//! Trim: variables driven to targets, as AVL's OPER menu pairs them.
+//!
+//! Every variable (alpha, beta, three rates, each control) has one target: a value of its own or of another
+//! variable, or a value of CL, CY, Cl, Cm, Cn. Newton's method with the exact derivatives of the flow.
+
+use albatross_avl::run::{RunCase, RunTarget, RunVariable};
+use albatross_numerics::{Mat, solve};
+use serde::{Deserialize, Serialize};
+
+use crate::condition::{Condition, control_index};
+use crate::error::{Error, Result};
+use crate::flow::Solver;
+use crate::lattice::Lattice;
+use crate::output::Solution;
+
+/// Iterations before giving up; three or four are usual.
+const ITERATIONS: usize = 30;
+
+/// Largest residual of a converged trim: coefficients, rates, and angles in rad.
+const TOLERANCE: f64 = 1e-11;
+
+/// Angles beyond which the trim is given up.
+const ANGLE_LIMIT_DEG: f64 = 85.0;
+
+/// A target and its value: degrees for angles and controls.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Target {
+    /// What is to reach the value.
+    pub kind: RunTarget,
+    /// The value.
+    pub value: f64,
+}
+
+/// One target for each variable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trim {
+    /// Targets of alpha, beta, roll rate, pitch rate, yaw rate, and of each control in AVL's order.
+    pub targets: Vec<Target>,
+    /// Design variables, which stay.
+    pub designs: Vec<f64>,
+}
+
+impl Trim {
+    /// Every variable at zero.
+    pub fn new(lattice: &Lattice) -> Self {
+        let own = [
+            RunTarget::Alpha,
+            RunTarget::Beta,
+            RunTarget::RollRate,
+            RunTarget::PitchRate,
+            RunTarget::YawRate,
+        ];
+        let controls = lattice.control_names().map(|n| RunTarget::Control(n.to_owned()));
+        Self {
+            targets: own
+                .into_iter()
+                .chain(controls)
+                .map(|kind| Target { kind, value: 0.0 })
+                .collect(),
+            designs: vec![0.0; lattice.designs.len()],
+        }
+    }
+
+    /// The constraints of a run case; variables that it does not name stay at zero. As AVL reads it, the values of
+    /// alpha, beta and controls are in degrees, rates in body axes.
+    ///
+    /// # Errors
+    /// [`Error::UnknownControl`].
+    pub fn of_run_case(lattice: &Lattice, case: &RunCase) -> Result<Self> {
+        let mut trim = Self::new(lattice);
+        for constraint in &case.constraints {
+            trim.set(lattice, &constraint.variable, constraint.target.clone(), constraint.value)?;
+        }
+        Ok(trim)
+    }
+
+    /// Drives a variable to a target.
+    ///
+    /// # Errors
+    /// [`Error::UnknownControl`].
+    pub fn set(&mut self, lattice: &Lattice, variable: &RunVariable, kind: RunTarget, value: f64) -> Result<()> {
+        let index = match variable {
+            RunVariable::Alpha => 0,
+            RunVariable::Beta => 1,
+            RunVariable::RollRate => 2,
+            RunVariable::PitchRate => 3,
+            RunVariable::YawRate => 4,
+            RunVariable::Control(name) => 5 + control_index(lattice, name)?,
+        };
+        if let Some(target) = self.targets.get_mut(index) {
+            *target = Target { kind, value };
+        }
+        Ok(())
+    }
+}
+
+/// The trim's unknowns: alpha, beta in rad, rates, controls.
+fn condition(x: &[f64], designs: &[f64]) -> Condition {
+    let at = |k: usize| x.get(k).copied().unwrap_or(0.0);
+    Condition {
+        alpha_rad: at(0),
+        beta_rad: at(1),
+        pb_2v: at(2),
+        qc_2v: at(3),
+        rb_2v: at(4),
+        controls: x.iter().skip(5).copied().collect(),
+        designs: designs.to_vec(),
+    }
+}
+
+/// What a target compares: one of the unknowns, or a coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Measure {
+    Unknown(usize),
+    Lift,
+    Side,
+    Moment(usize),
+}
+
+impl Measure {
+    fn of(lattice: &Lattice, kind: &RunTarget) -> Result<Self> {
+        Ok(match kind {
+            RunTarget::Alpha => Self::Unknown(0),
+            RunTarget::Beta => Self::Unknown(1),
+            RunTarget::RollRate => Self::Unknown(2),
+            RunTarget::PitchRate => Self::Unknown(3),
+            RunTarget::YawRate => Self::Unknown(4),
+            RunTarget::Control(name) => Self::Unknown(5 + control_index(lattice, name)?),
+            RunTarget::Lift => Self::Lift,
+            RunTarget::SideForce => Self::Side,
+            RunTarget::RollMoment => Self::Moment(0),
+            RunTarget::PitchMoment => Self::Moment(1),
+            RunTarget::YawMoment => Self::Moment(2),
+        })
+    }
+
+    fn goal(self, value: f64) -> f64 {
+        match self {
+            Self::Unknown(0 | 1) => value.to_radians(),
+            _ => value,
+        }
+    }
+
+    /// Value and derivatives by the unknowns.
+    fn row(self, solution: &Solution<'_>, x: &[f64], row: &mut [f64]) -> f64 {
+        let table = solution.table();
+        if let Self::Unknown(k) = self {
+            row.fill(0.0);
+            if let Some(own) = row.get_mut(k) {
+                *own = 1.0;
+            }
+            return x.get(k).copied().unwrap_or(0.0);
+        }
+        let pick = |force: [f64; 2], moment: [f64; 3]| match self {
+            Self::Lift => force[0],
+            Self::Side => force[1],
+            Self::Moment(axis) => moment[axis.min(2)],
+            Self::Unknown(_) => 0.0,
+        };
+        // Moments are those of body axes, lift that of stability axes.
+        let of = |c: &crate::coefficients::Coefficients| {
+            let s = table.resolved(c);
+            pick([s.lift, s.side], c.body().1.into())
+        };
+        for (k, to) in row.iter_mut().enumerate() {
+            *to = match k {
+                0 => {
+                    let s = table.stability_alpha_body_rates();
+                    pick([s.lift, s.side], table.alpha_body_rates().body().1.into())
+                }
+                1 => of(&table.beta()),
+                2..=4 => of(&table.body_rate(k - 2)),
+                _ => of(&table.setting(k - 5)),
+            };
+        }
+        of(&table.value)
+    }
+}
+
+/// Name of a target in messages.
+fn target_name(kind: &RunTarget) -> String {
+    kind.name().to_owned()
+}
+
+/// Names of the variables.
+fn variable_name(lattice: &Lattice, k: usize) -> String {
+    ["alpha", "beta", "pb/2V", "qc/2V", "rb/2V"].get(k).map_or_else(
+        || lattice.controls.get(k - 5).map_or_else(String::new, |c| c.name.clone()),
+        |n| (*n).to_owned(),
+    )
+}
+
+impl Solver<'_> {
+    /// The flight condition at which all targets are met.
+    ///
+    /// # Errors
+    /// [`Error::TargetTwice`], [`Error::TrimSingular`], [`Error::TrimNotConverged`], [`Error::TrimOutOfRange`];
+    /// [`Error::Length`] for targets that do not fit the lattice.
+    pub fn trim(&self, trim: &Trim) -> Result<Solution<'_>> {
+        let lattice = self.lattice();
+        let n = 5 + lattice.controls.len();
+        if trim.targets.len() != n {
+            return Err(Error::Length {
+                what: "targets of the trim (alpha, beta, three rates, each control)",
+                found: trim.targets.len(),
+                expected: n,
+            });
+        }
+        let measures: Vec<Measure> =
+            trim.targets.iter().map(|t| Measure::of(lattice, &t.kind)).collect::<Result<_>>()?;
+        for (k, measure) in measures.iter().enumerate() {
+            if let Some(first) = measures[..k].iter().position(|m| m == measure) {
+                return Err(Error::TargetTwice {
+                    target: target_name(&trim.targets[k].kind),
+                    first: variable_name(lattice, first),
+                    second: variable_name(lattice, k),
+                });
+            }
+        }
+        let goals: Vec<f64> = measures.iter().zip(&trim.targets).map(|(m, t)| m.goal(t.value)).collect();
+        // Variables that are given directly start at their value.
+        let mut x = vec![0.0; n];
+        for (measure, goal) in measures.iter().zip(&goals) {
+            if let Measure::Unknown(k) = measure {
+                x[*k] = *goal;
+            }
+        }
+        let mut jacobian = Mat::zeros(n, n);
+        let mut row = vec![0.0; n];
+        let mut residual = vec![0.0; n];
+        let mut worst = (0, f64::INFINITY);
+        for iteration in 0..=ITERATIONS {
+            let solution = self.solve(&condition(&x, &trim.designs))?;
+            for (i, (measure, goal)) in measures.iter().zip(&goals).enumerate() {
+                residual[i] = goal - measure.row(&solution, &x, &mut row);
+                for (j, value) in row.iter().enumerate() {
+                    jacobian[(i, j)] = *value;
+                }
+            }
+            worst = residual
+                .iter()
+                .map(|r| r.abs())
+                .enumerate()
+                .fold((0, 0.0), |w, r| if r.1 > w.1 { r } else { w });
+            if worst.1 <= TOLERANCE {
+                return Ok(solution);
+            }
+            let step = solve::solve_vec(jacobian.as_ref(), &residual).map_err(|_| Error::TrimSingular {
+                target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+                iteration,
+            })?;
+            x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
+            for (variable, value) in [("alpha", x[0]), ("beta", x[1])] {
+                let value_deg = value.to_degrees();
+                if !(value_deg.abs() <= ANGLE_LIMIT_DEG) {
+                    return Err(Error::TrimOutOfRange {
+                        variable,
+                        value_deg,
+                        limit_deg: ANGLE_LIMIT_DEG,
+                    });
+                }
+            }
+        }
+        Err(Error::TrimNotConverged {
+            iterations: ITERATIONS,
+            target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+            residual: worst.1,
+        })
+    }
+}

@@ -1,0 +1,2 @@
+//! Integration tests of the vortex lattice.
+mod f25;
