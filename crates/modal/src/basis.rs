@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::mass_matrix::MassMatrix;
-use crate::mass_properties::MassProperties;
+use albatross_fem::MassProperties;
 use crate::mean_axes::{Checked, MeanAxes, OnViolation, RigidBody, check};
 use crate::options::{BasisOptions, Normalisation};
 use crate::symmetry::{MirrorPairs, Symmetry, symmetry_measure};

@@ -9,22 +9,9 @@ pub enum Error {
     /// The deck and the results file do not fit, or lack something.
     #[error(transparent)]
     Nastran(#[from] albatross_nastran::Error),
-    /// A card refers to one that the deck lacks.
-    #[error("{card}: {missing} is not in the deck; add the card or correct the number")]
-    MissingCard {
-        /// The card that refers, with its place when known.
-        card: String,
-        /// What it refers to.
-        missing: String,
-    },
-    /// A card whose numbers cannot be a mass.
-    #[error("{card}: {problem}")]
-    BadMass {
-        /// The card, with its place when known.
-        card: String,
-        /// What is wrong, and the cure.
-        problem: String,
-    },
+    /// The mass of the deck cannot be assembled.
+    #[error(transparent)]
+    Fem(#[from] albatross_fem::Error),
     /// The results hold no eigenvector of the subcase asked for.
     #[error("{file}: no eigenvectors for subcase {wanted}; the file has {present}")]
     NoSuchSubcase {

@@ -5,12 +5,12 @@ use albatross_nastran::frames::Frames;
 use albatross_nastran::{Deck, Dialect, Eigenvector, ModalResults, PointKind, RealMode};
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::assembly::{BarMass, DeckMass};
+use albatross_fem::{BarMass, DeckMass};
 use crate::basis::{BasisGrid, BasisMass, ModalBasis};
-use crate::constraints::free_directions;
+use albatross_fem::free_directions;
 use crate::error::Error;
 use crate::mass_matrix::MassMatrix;
-use crate::mass_properties::{MassProperties, MassSource};
+use albatross_fem::{MassProperties, MassSource};
 use crate::mean_axes::{MeanAxes, RigidBody};
 use crate::options::BasisOptions;
 use crate::select::{self, Candidate};
@@ -24,8 +24,8 @@ impl ModalBasis {
     ///
     /// # Errors
     /// [`Error::Nastran`] for results without eigenvectors or of another deck; [`Error::NoSuchSubcase`],
-    /// [`Error::NoSuchMode`], [`Error::TooFewModes`], [`Error::GridsDiffer`]; [`Error::MissingCard`] and
-    /// [`Error::BadMass`] from the mass cards; and the errors of [`try_new`](Self::try_new).
+    /// [`Error::NoSuchMode`], [`Error::TooFewModes`], [`Error::GridsDiffer`]; [`Error::Fem`] from
+    /// the mass cards; and the errors of [`try_new`](Self::try_new).
     pub fn from_nastran(deck: &Deck, results: &ModalResults, options: &BasisOptions) -> Result<Self, Error> {
         options.check()?;
         let frames = Frames::resolve(deck)?;

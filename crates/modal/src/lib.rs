@@ -60,33 +60,29 @@
 //!   constant strain energy.
 //! - This crate reads no files and prints nothing. What it assumed stands in [`ModalBasis::notes`].
 
-mod assembly;
 mod basis;
-mod constraints;
 mod energy;
 mod error;
 mod import;
 mod interpolate;
 mod mac;
 mod mass_matrix;
-mod mass_properties;
 mod mean_axes;
 mod options;
-mod rigid;
 mod select;
 mod symmetry;
 mod text;
 mod weight_check;
 
-pub use assembly::{BarMass, DeckMass};
+pub use albatross_fem::{
+    BarMass, DeckMass, GridMass, MassModel, MassProperties, MassSource, RIGID_DIRECTIONS, rigid_shape,
+};
 pub use basis::{BasisGrid, BasisMass, BasisMode, ModalBasis, ModeInput};
 pub use energy::{Component, Direction, EnergyShare, describe, energy_shares};
 pub use error::Error;
 pub use interpolate::{LARGEST_EXTRAPOLATION, LoadReferenceAxis, Station, StationShapes, interpolate};
 pub use mac::{ModePair, mac, pair_modes};
-pub use mass_matrix::{GridMass, MassMatrix, MassModel};
-pub use mass_properties::{MassProperties, MassSource};
+pub use mass_matrix::MassMatrix;
 pub use mean_axes::{MeanAxes, MeanAxesCheck, OnViolation};
 pub use options::{BasisOptions, Normalisation, Selection};
-pub use rigid::{RIGID_DIRECTIONS, rigid_shape};
 pub use symmetry::{MirrorPairs, Symmetry, symmetry_measure};

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::mass_matrix::{MassMatrix, dot};
-use crate::rigid::{RIGID_DIRECTIONS, rigid_shape};
+use albatross_fem::{RIGID_DIRECTIONS, rigid_shape};
 
 /// What to do when a mode exceeds the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]

@@ -1,6 +1,6 @@
 //! What a basis is made of, and how strictly it is checked.
 
-use crate::assembly::BarMass;
+use albatross_fem::BarMass;
 use crate::error::Error;
 use crate::mean_axes::OnViolation;
 

@@ -144,7 +144,7 @@ pub fn symmetry_measure(shape: &[[f64; 6]], pairs: &MirrorPairs, mass: Option<&M
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rigid::rigid_shape;
+    use albatross_fem::rigid_shape;
 
     fn cross() -> Vec<BasisGrid> {
         let positions = [

@@ -4,9 +4,9 @@ use albatross_nastran::frames::Frames;
 use albatross_nastran::{Deck, GridPointWeight};
 
 use crate::basis::ModalBasis;
-use crate::mass_matrix::MassModel;
+use albatross_fem::MassModel;
 use crate::mean_axes::MeanAxes;
-use crate::rigid::RIGID_DIRECTIONS;
+use albatross_fem::RIGID_DIRECTIONS;
 
 /// Basic position of the weight generator's reference point; `None` for a grid that the deck lacks.
 pub(crate) fn reference_position(frames: &Frames, weight: &GridPointWeight) -> Option<[f64; 3]> {

@@ -13,7 +13,7 @@ fn assemble(bulk: &str) -> DeckMass {
 fn assemble_as(bulk: &str, bars: BarMass) -> Result<DeckMass, albatross_modal::Error> {
     let deck = parse(bulk);
     let frames = Frames::resolve(&deck)?;
-    DeckMass::assemble(&deck, &frames, bars)
+    Ok(DeckMass::assemble(&deck, &frames, bars)?)
 }
 
 fn parse(bulk: &str) -> Deck {

@@ -11,7 +11,8 @@ use crate::rigid::rigid_transfer;
 /// Which of the six rigid motions about `center` move no constrained freedom (PS of GRID, and the SPC set that case
 /// control selects for `subcase`). A half model on its plane of symmetry keeps x, z and pitch; a clamped wing keeps
 /// nothing.
-pub(crate) fn free_directions(
+#[must_use]
+pub fn free_directions(
     deck: &Deck,
     frames: &Frames,
     center: [f64; 3],
@@ -38,7 +39,7 @@ pub(crate) fn free_directions(
     free
 }
 
-fn constrained(deck: &Deck, subcase: Option<u32>) -> Vec<(Id, Components)> {
+pub(crate) fn constrained(deck: &Deck, subcase: Option<u32>) -> Vec<(Id, Components)> {
     let mut all: Vec<(Id, Components)> = deck
         .grids
         .values()
@@ -84,7 +85,7 @@ fn selected_set(deck: &Deck, subcase: Option<u32>) -> Option<Id> {
     own.or(common)
 }
 
-fn with_added_sets(deck: &Deck, set: Id) -> BTreeSet<Id> {
+pub(crate) fn with_added_sets(deck: &Deck, set: Id) -> BTreeSet<Id> {
     let mut sets = BTreeSet::from([set]);
     for card in deck.raw.iter().filter(|c| c.name == "SPCADD") {
         let mut numbers = card.fields.iter().filter_map(|f| f.parse::<Id>().ok());

@@ -3,9 +3,11 @@
 use albatross_nastran::deck::{BeamProperty, Id};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use super::{BarMass, Context, DeckMass};
+use super::{BarMass, DeckMass, check_finite};
+use crate::context::Context;
 use crate::error::Error;
-use crate::mass_matrix::rigid_block;
+use crate::line::{LineAxis, LineCard};
+use crate::mass_model::rigid_block;
 use crate::rigid::{rigid_transfer, skew};
 
 /// A line element with the mass at its two ends.
@@ -13,8 +15,10 @@ struct Line {
     name: &'static str,
     id: Id,
     grids: [Id; 2],
-    /// From each grid to the element's end, basic axes, m.
+    /// From each grid to the mass at the element's end, basic axes, m.
     arms: [Vector3<f64>; 2],
+    /// From end A to end B of the element, m.
+    vector: Vector3<f64>,
     /// Mass per length that belongs to each end, kg/m: the mass of a uniform element is split equally, that of a
     /// tapered one so that mass and centre are kept.
     per_length: [f64; 2],
@@ -35,7 +39,7 @@ fn add_bars(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
         let missing = |what| context.missing("CBAR", bar.id, what);
         let property = context.deck.bar_properties.get(&bar.pid);
         let property = property.ok_or_else(|| missing(format!("PBAR or PBARL {}", bar.pid)))?;
-        let rho = density(context, "CBAR", bar.id, property.mid())?;
+        let rho = context.material("CBAR", bar.id, property.mid())?.rho;
         let Some(area) = property.area().or((rho == 0.0).then_some(0.0)) else {
             mass.other.push(format!(
                 "CBAR {} (area of its PBARL section is not known)",
@@ -47,27 +51,14 @@ fn add_bars(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
         if mu == 0.0 {
             continue;
         }
-        let Some(arms) = arms(
-            context,
-            "CBAR",
-            bar.id,
-            bar.grids,
-            &bar.offset_frames,
-            [bar.wa, bar.wb],
-        )?
-        else {
-            mass.other
-                .push(format!("CBAR {} (offsets in the element frame)", bar.id));
-            continue;
-        };
-        let (name, id, grids) = ("CBAR", bar.id, bar.grids);
-        let per_length = [mu / 2.0; 2];
+        let LineAxis { arms, vector, .. } = LineCard::from(bar).axis(context)?;
         Line {
-            name,
-            id,
-            grids,
+            name: "CBAR",
+            id: bar.id,
+            grids: bar.grids,
             arms,
-            per_length,
+            vector,
+            per_length: [mu / 2.0; 2],
             axial_inertia: 0.0,
             coupled,
         }
@@ -81,8 +72,8 @@ fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Resul
         let missing = |what| context.missing("CBEAM", beam.id, what);
         let property = context.deck.beam_properties.get(&beam.pid);
         let property = property.ok_or_else(|| missing(format!("PBEAM or PBEAML {}", beam.pid)))?;
-        let rho = density(context, "CBEAM", beam.id, property.mid())?;
-        let (Some(stations), Some(axial_inertia)) = (property.mass_stations(), axial_inertia(property, rho))
+        let rho = context.material("CBEAM", beam.id, property.mid())?.rho;
+        let (Some(stations), Some([axial, nsi])) = (property.mass_stations(), axial_inertia(property, rho))
         else {
             mass.other.push(format!(
                 "CBEAM {} (area or moments of its section are not known)",
@@ -90,40 +81,42 @@ fn add_beams(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Resul
             ));
             continue;
         };
-        let line_mass: Vec<(f64, f64)> = stations
-            .iter()
-            .map(|&(x, area, nsm)| (x, rho * area + nsm))
-            .collect();
-        let per_length = end_shares(&line_mass);
-        if per_length == [0.0; 2] && axial_inertia == 0.0 {
-            continue;
-        }
-        let offsets = arms(
-            context,
-            "CBEAM",
-            beam.id,
-            beam.grids,
-            &beam.offset_frames,
-            [beam.wa, beam.wb],
-        )?;
-        let Some(arms) = offsets.filter(|_| !is_eccentric(property, rho, &stations)) else {
-            mass.other.push(format!(
-                "CBEAM {} (mass off the shear centre, or offsets in the element frame)",
-                beam.id
-            ));
-            continue;
+        let structural = stations.iter().map(|&(x, area, _)| (x, rho * area));
+        let nonstructural = stations.iter().map(|&(x, _, nsm)| (x, nsm));
+        let total = stations.iter().map(|&(x, area, nsm)| (x, rho * area + nsm));
+        let card = LineCard::from(beam);
+        let add = |shares: [f64; 2], axial_inertia, eccentricity: Option<[f64; 4]>, mass: &mut DeckMass| {
+            if shares == [0.0; 2] && axial_inertia == 0.0 {
+                return Ok(());
+            }
+            let LineAxis { mut arms, vector, .. } = card.axis(context)?;
+            if let Some([ya, za, yb, zb]) = eccentricity {
+                let axes = card.axes(context, vector)?;
+                arms[0] += axes * Vector3::new(0.0, ya, za);
+                arms[1] += axes * Vector3::new(0.0, yb, zb);
+            }
+            Line {
+                name: "CBEAM",
+                id: beam.id,
+                grids: beam.grids,
+                arms,
+                vector,
+                per_length: shares,
+                axial_inertia,
+                coupled,
+            }
+            .add_to(context, mass)
         };
-        let (name, id, grids) = ("CBEAM", beam.id, beam.grids);
-        Line {
-            name,
-            id,
-            grids,
-            arms,
-            per_length,
-            axial_inertia,
-            coupled,
+        let (on_axis, at_nsm) = match property {
+            BeamProperty::Pbeam(p) => (end_offsets(&p.ends.neutral_axis), end_offsets(&p.ends.nsm_center)),
+            BeamProperty::Pbeaml(_) => (None, None),
+        };
+        if on_axis == at_nsm {
+            add(end_shares(&total.collect::<Vec<_>>()), axial + nsi, on_axis, mass)?;
+        } else {
+            add(end_shares(&structural.collect::<Vec<_>>()), axial, on_axis, mass)?;
+            add(end_shares(&nonstructural.collect::<Vec<_>>()), nsi, at_nsm, mass)?;
         }
-        .add_to(context, mass)?;
     }
     Ok(())
 }
@@ -134,11 +127,11 @@ fn add_rods(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
         let property = context.deck.rod_properties.get(&rod.pid);
         let property =
             property.ok_or_else(|| context.missing("CROD", rod.id, format!("PROD {}", rod.pid)))?;
-        let rho = density(context, "CROD", rod.id, property.mid)?;
+        let rho = context.material("CROD", rod.id, property.mid)?.rho;
         rods.push(("CROD", rod.id, rod.grids, rho * property.area + property.nsm));
     }
     for rod in context.deck.conrods.values() {
-        let rho = density(context, "CONROD", rod.id, rod.mid)?;
+        let rho = context.material("CONROD", rod.id, rod.mid)?.rho;
         rods.push(("CONROD", rod.id, rod.grids, rho * rod.area + rod.nsm));
     }
     rods.retain(|r| r.3 != 0.0);
@@ -147,6 +140,8 @@ fn add_rods(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
             .push("rods are lumped although the deck asks for coupled mass".into());
     }
     for (name, id, grids, mu) in rods {
+        let [a, b] = grids;
+        let vector = context.grid(name, id, b)?.position - context.grid(name, id, a)?.position;
         let arms = [Vector3::zeros(); 2];
         let per_length = [mu / 2.0; 2];
         let line = Line {
@@ -154,6 +149,7 @@ fn add_rods(context: &Context<'_>, coupled: bool, mass: &mut DeckMass) -> Result
             id,
             grids,
             arms,
+            vector,
             per_length,
             axial_inertia: 0.0,
             coupled: false,
@@ -168,7 +164,7 @@ impl Line {
         let [a, b] = self.grids;
         let at_a = context.grid(self.name, self.id, a)?.position;
         let at_b = context.grid(self.name, self.id, b)?.position;
-        let axis = (at_b + self.arms[1]) - (at_a + self.arms[0]);
+        let axis = self.vector;
         let length = axis.norm();
         if !(length > 0.0 && length.is_finite()) {
             return Err(Error::BadMass {
@@ -197,7 +193,7 @@ impl Line {
             eb.transpose() * ends[2] * eb,
         ];
         for block in &blocks {
-            context.check_finite(self.name, self.id, block)?;
+            check_finite(context, self.name, self.id, block)?;
         }
         mass.model.add(a, at_a, &blocks[0]);
         mass.model.add(b, at_b, &blocks[2]);
@@ -240,36 +236,12 @@ fn coupled_blocks(
     ]
 }
 
-/// Density of a bar's material. An element without a material that the deck has cannot be judged.
-fn density(context: &Context<'_>, name: &str, id: Id, mid: Id) -> Result<f64, Error> {
-    let material = context.deck.materials.get(&mid);
-    material
-        .map(|m| m.rho)
-        .ok_or_else(|| context.missing(name, id, format!("MAT1 {mid}")))
-}
-
-/// Offsets of both ends in basic axes; `None` when they are given in the element's own frame.
-fn arms(
-    context: &Context<'_>,
-    name: &str,
-    id: Id,
-    grids: [Id; 2],
-    offset_frames: &str,
-    offsets: [[f64; 3]; 2],
-) -> Result<Option<[Vector3<f64>; 2]>, Error> {
-    let mut arms = [Vector3::zeros(); 2];
-    for (end, (arm, offset)) in arms.iter_mut().zip(offsets).enumerate() {
-        if offset == [0.0; 3] {
-            continue;
-        }
-        // OFFT: the second letter is for end A, the third for end B; G is the grid's displacement system.
-        if offset_frames.chars().nth(end + 1).is_some_and(|c| c != 'G') {
-            return Ok(None);
-        }
-        let grid = grids.get(end).copied().unwrap_or_default();
-        *arm = context.grid(name, id, grid)?.axes * Vector3::from(offset);
-    }
-    Ok(Some(arms))
+/// (y, z) at A, then at B; those of B are as at A when blank. `None` on the shear centre.
+pub(crate) fn end_offsets(values: &[Option<f64>; 4]) -> Option<[f64; 4]> {
+    let [ya, za, yb, zb] = *values;
+    let (ya, za) = (ya.unwrap_or(0.0), za.unwrap_or(0.0));
+    let offsets = [ya, za, yb.unwrap_or(ya), zb.unwrap_or(za)];
+    (offsets != [0.0; 4]).then_some(offsets)
 }
 
 /// Mass per length of each end, from (x, mass per length) stations with straight lines between them: the integrals
@@ -287,11 +259,11 @@ fn end_shares(stations: &[(f64, f64)]) -> [f64; 2] {
     shares
 }
 
-/// Inertia of a beam about its axis per length, kg m, mean of both ends: rho (I1 + I2) and the non-structural part.
-/// Nastran gives it to CBEAM and not to CBAR. `None` when the moments of a section are not known.
-fn axial_inertia(property: &BeamProperty, rho: f64) -> Option<f64> {
+/// Inertia of a beam about its axis per length, kg m, mean of both ends: the structural part rho (I1 + I2), and the
+/// non-structural part. Nastran gives it to CBEAM and not to CBAR. `None` when the moments of a section are not known.
+fn axial_inertia(property: &BeamProperty, rho: f64) -> Option<[f64; 2]> {
     let polar = |(i1, i2): (f64, f64)| i1 + i2;
-    let ends = match property {
+    match property {
         BeamProperty::Pbeam(beam) => {
             let a = beam.stations.first()?;
             let b = beam.stations.iter().find(|s| s.x == 1.0).unwrap_or(a);
@@ -299,39 +271,25 @@ fn axial_inertia(property: &BeamProperty, rho: f64) -> Option<f64> {
             let at_b = (b.i1.unwrap_or(at_a.0), b.i2.unwrap_or(at_a.1));
             let [nsi_a, nsi_b] = beam.ends.nsi;
             let nsi_a = nsi_a.unwrap_or(0.0);
-            [
-                rho * polar(at_a) + nsi_a,
-                rho * polar(at_b) + nsi_b.unwrap_or(nsi_a),
-            ]
+            Some([
+                rho * (polar(at_a) + polar(at_b)) / 2.0,
+                (nsi_a + nsi_b.unwrap_or(nsi_a)) / 2.0,
+            ])
         }
-        BeamProperty::Pbeaml(_) if rho == 0.0 => [0.0; 2],
+        BeamProperty::Pbeaml(_) if rho == 0.0 => Some([0.0; 2]),
         BeamProperty::Pbeaml(beam) => {
             let a = beam.stations.first()?;
             let b = beam.stations.iter().find(|s| s.x == 1.0).unwrap_or(a);
-            [
-                rho * polar(a.section.second_moments()?),
-                rho * polar(b.section.second_moments()?),
-            ]
+            let sum = polar(a.section.second_moments()?) + polar(b.section.second_moments()?);
+            Some([rho * sum / 2.0, 0.0])
         }
-    };
-    Some((ends[0] + ends[1]) / 2.0)
-}
-
-/// Whether some mass of a beam is not on the shear centre.
-fn is_eccentric(property: &BeamProperty, rho: f64, stations: &[(f64, f64, f64)]) -> bool {
-    let BeamProperty::Pbeam(beam) = property else {
-        return false;
-    };
-    let offset = |values: &[Option<f64>; 4]| values.iter().flatten().any(|&v| v != 0.0);
-    let structural = rho != 0.0 && stations.iter().any(|s| s.1 != 0.0);
-    let non_structural = stations.iter().any(|s| s.2 != 0.0);
-    (structural && offset(&beam.ends.neutral_axis)) || (non_structural && offset(&beam.ends.nsm_center))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mass_matrix::MassModel;
+    use crate::mass_model::MassModel;
 
     /// A uniform beam moves rigidly: the consistent matrix must give the mass, centre and inertia of a thin rod,
     /// m L^2 / 12 about its centre, exactly.

@@ -5,7 +5,7 @@
 //! | CONM1 | its 6x6 matrix, turned from its frame |
 //! | CONM2 | rigid mass at an offset, with inertia about its centre, turned from its frame |
 //! | CBAR, CBEAM | (rho A + nsm) L, half at each end of the element; element offsets are rigid arms |
-//! | CBEAM | beside that, the inertia of its sections about its axis, (rho (I1 + I2) + nsi) L |
+//! | CBEAM | structural mass on the neutral axis, the rest at its own centre (N1, N2 and M1, M2 of PBEAM); beside that, the inertia of its sections about these lines, (rho (I1 + I2) + nsi) L |
 //! | CROD, CONROD | (rho A + nsm) L, half at each grid |
 //! | PARAM,WTMASS | factor on all of them |
 //!
@@ -17,11 +17,12 @@ mod other;
 
 use albatross_nastran::Deck;
 use albatross_nastran::deck::{Conm2Frame, Id};
-use albatross_nastran::frames::{Frames, ResolvedGrid};
+use albatross_nastran::frames::Frames;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
+use crate::context::Context;
 use crate::error::Error;
-use crate::mass_matrix::{MassModel, rigid_block};
+use crate::mass_model::{MassModel, rigid_block};
 use crate::rigid::rotation_blocks;
 
 /// How the mass of bars and beams is spread.
@@ -50,7 +51,8 @@ impl DeckMass {
     ///
     /// # Errors
     /// [`Error::MissingCard`] for a grid, property, material or coordinate system that a mass card names and the
-    /// deck lacks; [`Error::BadMass`] for numbers that are not finite and for elements without length.
+    /// deck lacks; [`Error::BadMass`] for numbers that are not finite, [`Error::BadElement`] for elements without
+    /// length.
     pub fn assemble(deck: &Deck, frames: &Frames, bar_mass: BarMass) -> Result<Self, Error> {
         let mut mass = Self::default();
         let context = Context { deck, frames };
@@ -73,50 +75,14 @@ impl DeckMass {
     }
 }
 
-/// What every card needs: the deck to look others up, resolved positions and frames.
-struct Context<'a> {
-    deck: &'a Deck,
-    frames: &'a Frames,
-}
-
-impl Context<'_> {
-    /// Name of a card for messages, with file and line when known.
-    fn card(&self, name: &str, id: Id) -> String {
-        match self.deck.origins.of(name, id) {
-            Some(origin) => format!("{origin}: {name} {id}"),
-            None => format!("{name} {id}"),
-        }
+fn check_finite(context: &Context<'_>, name: &str, id: Id, block: &Matrix6<f64>) -> Result<(), Error> {
+    if block.iter().all(|m| m.is_finite()) {
+        return Ok(());
     }
-
-    fn grid(&self, name: &str, id: Id, grid: Id) -> Result<&ResolvedGrid, Error> {
-        self.frames
-            .grid(grid)
-            .ok_or_else(|| self.missing(name, id, format!("GRID {grid}")))
-    }
-
-    /// Unit vectors of coordinate system `cid` at a position.
-    fn axes(&self, name: &str, id: Id, cid: Id, at: Vector3<f64>) -> Result<Matrix3<f64>, Error> {
-        let system = self.frames.system(cid);
-        let system = system.ok_or_else(|| self.missing(name, id, format!("coordinate system {cid}")))?;
-        Ok(system.displacement_axes(at))
-    }
-
-    fn missing(&self, name: &str, id: Id, missing: String) -> Error {
-        Error::MissingCard {
-            card: self.card(name, id),
-            missing,
-        }
-    }
-
-    fn check_finite(&self, name: &str, id: Id, block: &Matrix6<f64>) -> Result<(), Error> {
-        if block.iter().all(|m| m.is_finite()) {
-            return Ok(());
-        }
-        Err(Error::BadMass {
-            card: self.card(name, id),
-            problem: "its mass is not finite; correct the numbers on the card".into(),
-        })
-    }
+    Err(Error::BadMass {
+        card: context.card(name, id),
+        problem: "its mass is not finite; correct the numbers on the card".into(),
+    })
 }
 
 fn concentrated(context: &Context<'_>, model: &mut MassModel) -> Result<(), Error> {
@@ -125,7 +91,7 @@ fn concentrated(context: &Context<'_>, model: &mut MassModel) -> Result<(), Erro
         let a = rotation_blocks(&context.axes("CONM1", conm1.id, conm1.cid, grid.position)?);
         let local = Matrix6::from_fn(|i, j| conm1.mass[i][j]);
         let block = a * local * a.transpose();
-        context.check_finite("CONM1", conm1.id, &block)?;
+        check_finite(context, "CONM1", conm1.id, &block)?;
         model.add(conm1.grid, grid.position, &block);
     }
     for conm2 in context.deck.conm2.values() {
@@ -140,7 +106,7 @@ fn concentrated(context: &Context<'_>, model: &mut MassModel) -> Result<(), Erro
         };
         let j_local = Matrix3::from(conm2.inertia_tensor()).transpose();
         let block = rigid_block(conm2.mass, offset, &(axes * j_local * axes.transpose()));
-        context.check_finite("CONM2", conm2.id, &block)?;
+        check_finite(context, "CONM2", conm2.id, &block)?;
         model.add(conm2.grid, grid.position, &block);
     }
     Ok(())

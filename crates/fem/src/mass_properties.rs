@@ -76,7 +76,7 @@ impl MassProperties {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mass_matrix::{MassModel, rigid_block};
+    use crate::mass_model::{MassModel, rigid_block};
 
     /// Two point masses: centre and inertia by the definition sums.
     #[test]
