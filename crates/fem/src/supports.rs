@@ -46,10 +46,7 @@ pub(crate) fn constrained(deck: &Deck, subcase: Option<u32>) -> Vec<(Id, Compone
         .filter(|g| !g.ps.is_empty())
         .map(|g| (g.id, g.ps))
         .collect();
-    let Some(set) = selected_set(deck, subcase) else {
-        return all;
-    };
-    let sets = with_added_sets(deck, set);
+    let sets = selected_sets(deck, "SPC", subcase);
     all.extend(
         deck.spcs
             .iter()
@@ -62,8 +59,25 @@ pub(crate) fn constrained(deck: &Deck, subcase: Option<u32>) -> Vec<(Id, Compone
     all
 }
 
-/// The SPC set of a subcase: its own, or the one above the first subcase. Without a subcase, the first one named.
-fn selected_set(deck: &Deck, subcase: Option<u32>) -> Option<Id> {
+/// The sets of `command` (`SPC`, `MPC`) that are active: the subcase's own, or the one above the first subcase, with
+/// the sets that an SPCADD or MPCADD adds. Without a subcase, the first one named. Empty if case control names none.
+pub(crate) fn selected_sets(deck: &Deck, command: &str, subcase: Option<u32>) -> BTreeSet<Id> {
+    let Some(set) = selected(deck, command, subcase) else {
+        return BTreeSet::new();
+    };
+    let mut sets = BTreeSet::from([set]);
+    let adding = format!("{command}ADD");
+    for card in deck.raw.iter().filter(|c| c.name == adding) {
+        let mut numbers = card.fields.iter().filter_map(|f| f.parse::<Id>().ok());
+        if numbers.next() == Some(set) {
+            sets.extend(numbers);
+        }
+    }
+    sets
+}
+
+/// The number that case control gives to a command, such as `SPC = 3` or `METHOD = 10`.
+pub(crate) fn selected(deck: &Deck, command: &str, subcase: Option<u32>) -> Option<Id> {
     let mut current = None;
     let mut common = None;
     let mut own = None;
@@ -72,7 +86,7 @@ fn selected_set(deck: &Deck, subcase: Option<u32>) -> Option<Id> {
         if let Some(number) = line.strip_prefix("SUBCASE") {
             current = number.trim().parse::<u32>().ok();
         } else if let Some((name, value)) = line.split_once('=')
-            && name.trim() == "SPC"
+            && name.split('(').next().unwrap_or_default().trim() == command
             && let Ok(set) = value.trim().parse::<Id>()
         {
             if current.is_none() {
@@ -83,15 +97,4 @@ fn selected_set(deck: &Deck, subcase: Option<u32>) -> Option<Id> {
         }
     }
     own.or(common)
-}
-
-pub(crate) fn with_added_sets(deck: &Deck, set: Id) -> BTreeSet<Id> {
-    let mut sets = BTreeSet::from([set]);
-    for card in deck.raw.iter().filter(|c| c.name == "SPCADD") {
-        let mut numbers = card.fields.iter().filter_map(|f| f.parse::<Id>().ok());
-        if numbers.next() == Some(set) {
-            sets.extend(numbers);
-        }
-    }
-    sets
 }

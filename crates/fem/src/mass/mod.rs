@@ -15,6 +15,8 @@
 mod bars;
 mod other;
 
+pub(crate) use bars::end_offsets;
+
 use albatross_nastran::Deck;
 use albatross_nastran::deck::{Conm2Frame, Id};
 use albatross_nastran::frames::Frames;
@@ -42,6 +44,8 @@ pub struct DeckMass {
     pub model: MassModel,
     /// Cards that carry, or may carry, mass that `model` lacks, as text. Empty when the model is complete.
     pub other: Vec<String>,
+    /// Those of `other` that are bars or beams whose section is not known.
+    pub(crate) left_out_by_elements: Vec<String>,
     /// Remarks on what was assumed.
     pub notes: Vec<String>,
 }
@@ -58,6 +62,8 @@ impl DeckMass {
         let context = Context { deck, frames };
         concentrated(&context, &mut mass.model)?;
         bars::add(&context, bar_mass, &mut mass)?;
+        mass.left_out_by_elements.clone_from(&mass.other);
+        mass.left_out_by_elements.extend(other::bush_masses(deck));
         mass.other.extend(other::masses(deck));
         scale(&mut mass.model, deck.weight_to_mass())?;
         Ok(mass)

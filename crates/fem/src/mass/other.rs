@@ -81,6 +81,13 @@ fn scalar_masses(deck: &Deck, found: &mut Vec<String>) {
     }
 }
 
+/// CBUSH with mass, as text.
+pub(super) fn bush_masses(deck: &Deck) -> Vec<String> {
+    let mut found = Vec::new();
+    bushes(deck, &mut found);
+    found
+}
+
 fn bushes(deck: &Deck, found: &mut Vec<String>) {
     let has_mass = |pid: &Id| {
         let line = deck.bush_properties.get(pid).and_then(|p| p.m);

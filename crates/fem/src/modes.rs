@@ -1,0 +1,393 @@
+//! Normal modes, K phi = lambda M phi.
+
+use albatross_nastran::deck::Id;
+use albatross_nastran::{
+    Deck, Dialect, EigenvalueTable, Eigenvector, EigenvectorRow, ModalResults, PointKind, RealMode,
+};
+use albatross_numerics::Mat;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+
+use crate::dofs::Freedoms;
+use crate::error::Error;
+use crate::factor::{Analysis, Factor};
+use crate::lanczos::{self, Pairs, Wanted};
+use crate::model::{FemModel, listed};
+use crate::sparse::Symmetric;
+use crate::supports::selected;
+
+/// Vectors in a block: more than the rigid modes of a free body, so that they are found at once.
+const BLOCK: usize = 8;
+/// Modes when nothing says how many.
+const DEFAULT_COUNT: usize = 20;
+
+/// Scale of eigenvectors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModeScale {
+    /// Generalised mass 1.
+    #[default]
+    Mass,
+    /// Largest component 1.
+    Max,
+}
+
+/// Which modes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ModesOptions {
+    /// Number of modes, rigid ones included.
+    pub count: Option<usize>,
+    /// Lower end of the range, Hz. Zero and less keep the rigid modes.
+    pub lower_hz: Option<f64>,
+    /// Upper end of the range, Hz.
+    pub upper_hz: Option<f64>,
+    /// Scale of the vectors.
+    pub scale: ModeScale,
+}
+
+impl ModesOptions {
+    /// The number and range of the method that case control selects, or of the first EIGRL or EIGR of the deck.
+    #[must_use]
+    pub fn of_deck(deck: &Deck, subcase: Option<u32>) -> Self {
+        let method = selected(deck, "METHOD", subcase);
+        let positive = |n: Option<i32>| n.and_then(|n| usize::try_from(n).ok()).filter(|&n| n > 0);
+        let scale = |norm: &str| if norm == "MAX" { ModeScale::Max } else { ModeScale::Mass };
+        let lanczos = |id: Id| deck.eigrl.get(&id);
+        let others = |id: Id| deck.eigr.get(&id);
+        let eigrl = method.map_or_else(|| deck.eigrl.values().next(), lanczos);
+        if let Some(e) = eigrl {
+            return Self {
+                count: positive(e.desired),
+                lower_hz: e.lower_hz,
+                upper_hz: e.upper_hz,
+                scale: scale(&e.normalization),
+            };
+        }
+        let eigr = method.map_or_else(|| deck.eigr.values().next(), others);
+        eigr.map_or_else(Self::default, |e| Self {
+            count: positive(e.desired),
+            lower_hz: e.lower_hz,
+            upper_hz: e.upper_hz,
+            scale: scale(&e.normalization),
+        })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let bad = |option, value: f64, expected| {
+            Err(Error::BadOption {
+                option,
+                value: value.to_string(),
+                expected,
+            })
+        };
+        if self.count == Some(0) {
+            return bad("the number of modes", 0.0, "at least one");
+        }
+        let (low, high) = (self.lower_hz.unwrap_or(0.0), self.upper_hz.unwrap_or(f64::MAX));
+        if !low.is_finite() {
+            return bad("the lower frequency", low, "a finite number in Hz");
+        }
+        if !(high > low.max(0.0)) {
+            return bad("the upper frequency", high, "more than the lower one, in Hz");
+        }
+        Ok(())
+    }
+}
+
+/// Modes in ascending eigenvalue.
+#[derive(Debug, Clone)]
+pub struct Modes {
+    /// Eigenvalues, (rad/s)^2; those of rigid modes are rounding noise about zero.
+    pub eigenvalues: Vec<f64>,
+    /// Frequencies, Hz, from the absolute eigenvalue.
+    pub frequencies_hz: Vec<f64>,
+    /// Generalised masses, kg m^2 per unit of the coordinate squared.
+    pub generalized_masses: Vec<f64>,
+    /// Shapes on all freedoms (rows in the order of [`FemModel::freedoms`], CD systems), one column for each mode.
+    pub shapes: Mat<f64>,
+    /// `|K x - lambda M x|` of each mode on free freedoms, over `|D x| + |lambda| |M x|` with D the diagonal of K.
+    pub residuals: Vec<f64>,
+    /// What was found on the way, such as mechanisms without mass.
+    pub remarks: Vec<String>,
+    /// Entries of the Cholesky factor.
+    pub factor_entries: usize,
+    freedoms: Freedoms,
+    systems: Vec<Id>,
+}
+
+impl FemModel {
+    /// The lowest normal modes, or those of a range. Rigid modes of a free structure are found without SUPORT.
+    ///
+    /// A motion without stiffness and mass (the spin of a rod that carries point masses only) has no frequency: one of
+    /// its freedoms is held, with a remark that names it.
+    ///
+    /// # Errors
+    /// [`Error::EmptyModel`] without mass, [`Error::BadOption`], [`Error::NotConverged`], and
+    /// [`Error::Factorisation`] for numbers that are not finite.
+    pub fn modes(&self, options: &ModesOptions) -> Result<Modes, Error> {
+        options.check()?;
+        let mut model = Cow::Borrowed(self);
+        let mut remarks = Vec::new();
+        let nodes = model.nodes();
+        let mut analysis = Analysis::new(&model.pattern(), &nodes)?;
+        let mut sigma = model.first_shift()?;
+        let singular = {
+            let a = model.stiffness.combined(1.0, &model.mass, -sigma);
+            analysis.factorise(&a)?.singular
+        };
+        if !singular.is_empty() {
+            let freedoms: Vec<usize> = singular
+                .iter()
+                .filter_map(|&k| model.constraints.free.get(k).copied())
+                .collect();
+            remarks.push(format!(
+                "{} motions have neither stiffness nor mass; held at {}",
+                freedoms.len(),
+                listed(&model.freedoms, &freedoms)
+            ));
+            model.to_mut().hold(freedoms);
+            analysis = Analysis::new(&model.pattern(), &model.nodes())?;
+            sigma = model.first_shift()?;
+        }
+        let model = model.as_ref();
+        let (factor, start, sigma) = model.shifted(&analysis, sigma)?;
+        let pairs = model.in_range(&factor, &start, sigma, options)?;
+        if pairs.exhausted && options.count.is_some_and(|n| n > pairs.eigenvalues.len()) {
+            remarks.push(format!(
+                "the model has {} modes, fewer than asked for",
+                pairs.eigenvalues.len()
+            ));
+        }
+        Ok(model.finish(pairs, options.scale, remarks, analysis.stored()))
+    }
+
+    fn nodes(&self) -> Vec<usize> {
+        let points = self.freedoms.points();
+        let point = |&g: &usize| points.partition_point(|p| p.first <= g);
+        self.constraints.free.iter().map(point).collect()
+    }
+
+    fn pattern(&self) -> Symmetric {
+        self.stiffness.combined(1.0, &self.mass, 1.0)
+    }
+
+    /// A shift that is surely large enough to make K - sigma M definite in double precision: a millionth of the
+    /// median of k_ii / m_ii.
+    fn first_shift(&self) -> Result<f64, Error> {
+        let (k, m) = (self.stiffness.diagonal(), self.mass.diagonal());
+        let massive = k.iter().zip(&m).filter(|(_, m)| **m > 0.0);
+        let mut ratios: Vec<f64> = massive.map(|(k, m)| k / m).collect();
+        if ratios.is_empty() {
+            return Err(Error::EmptyModel {
+                problem: "no free freedom carries mass; give densities (RHO on MAT1), NSM or CONM2".into(),
+            });
+        }
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0);
+        Ok(if median > 0.0 { -1e-6 * median } else { -1.0 })
+    }
+
+    /// A factor with a shift of the size of the lowest elastic eigenvalues, and a block to start with.
+    fn shifted<'a>(
+        &self,
+        analysis: &'a Analysis,
+        mut sigma: f64,
+    ) -> Result<(Factor<'a>, Mat<f64>, f64), Error> {
+        let n = self.mass.order();
+        let mut block = random_block(n, BLOCK.min(n));
+        for round in 0.. {
+            let a = self.stiffness.combined(1.0, &self.mass, -sigma);
+            let factor = analysis.factorise(&a)?;
+            let (next, estimates) = lanczos::subspace(&factor, &self.mass, sigma, block, 3)?;
+            let size = estimates.last().copied().unwrap_or(0.0);
+            let is_fit = size > 0.0 && (0.02..20.0).contains(&(-sigma / size));
+            if is_fit || size <= 0.0 || round >= 4 {
+                return Ok((factor, next, sigma));
+            }
+            sigma = -size;
+            block = next;
+        }
+        Err(Error::EmptyModel {
+            problem: "no shift was found".into(),
+        })
+    }
+
+    fn in_range(
+        &self,
+        factor: &Factor<'_>,
+        start: &Mat<f64>,
+        sigma: f64,
+        options: &ModesOptions,
+    ) -> Result<Pairs, Error> {
+        let n = self.mass.order();
+        let eigenvalue = |hz: f64| (TAU * hz).powi(2);
+        let limit = options.upper_hz.map(eigenvalue);
+        let wanted = |count: usize| match limit {
+            Some(limit) => Wanted::Below(limit, count),
+            None => Wanted::Count(count),
+        };
+        let asked = options.count.unwrap_or(if limit.is_some() { n } else { DEFAULT_COUNT });
+        let Some(lower) = options.lower_hz.filter(|&f| f > 0.0).map(eigenvalue) else {
+            return lanczos::lowest(factor, &self.mass, sigma, start.clone(), wanted(asked.min(n)));
+        };
+        // Modes below the range have to be found too; how many is not known beforehand.
+        let mut count = asked.min(n);
+        loop {
+            let pairs = lanczos::lowest(factor, &self.mass, sigma, start.clone(), wanted(count))?;
+            let below = pairs.eigenvalues.partition_point(|&l| l < lower);
+            let within = pairs.eigenvalues.len() - below;
+            let complete = within >= asked || pairs.eigenvalues.len() < count || count == n;
+            if complete {
+                let taken = within.min(asked);
+                return Ok(Pairs {
+                    eigenvalues: pairs.eigenvalues[below..below + taken].to_vec(),
+                    vectors: pairs.vectors.subcols(below, taken).to_owned(),
+                    exhausted: pairs.exhausted,
+                });
+            }
+            count = (count + (asked - within) + BLOCK).min(n);
+        }
+    }
+
+    fn finish(&self, pairs: Pairs, scale: ModeScale, remarks: Vec<String>, factor_entries: usize) -> Modes {
+        let residuals = self.residuals(&pairs);
+        let count = pairs.eigenvalues.len();
+        let mut shapes = Mat::zeros(self.freedoms.count(), count);
+        let mut generalized_masses = vec![1.0; count];
+        for (k, mass) in generalized_masses.iter_mut().enumerate() {
+            let free: Vec<f64> = pairs.vectors.col(k).iter().copied().collect();
+            let shape = self.constraints.expand(&free);
+            // A sign that does not depend on the run: the largest component is positive.
+            let largest = shape.iter().fold(0.0_f64, |m, &v| if v.abs() > m.abs() { v } else { m });
+            let factor = match scale {
+                ModeScale::Mass => largest.signum(),
+                ModeScale::Max if largest != 0.0 => 1.0 / largest,
+                ModeScale::Max => 1.0,
+            };
+            *mass = factor * factor;
+            for (to, from) in shapes.col_mut(k).iter_mut().zip(&shape) {
+                *to = factor * from;
+            }
+        }
+        let frequencies_hz = pairs.eigenvalues.iter().map(|l| l.abs().sqrt() / TAU).collect();
+        let points = self.freedoms.points();
+        Modes {
+            frequencies_hz,
+            eigenvalues: pairs.eigenvalues,
+            generalized_masses,
+            shapes,
+            residuals,
+            remarks,
+            factor_entries,
+            systems: points.iter().map(|p| self.frames.grid(p.id).map_or(0, |g| g.cd)).collect(),
+            freedoms: self.freedoms.clone(),
+        }
+    }
+
+    fn residuals(&self, pairs: &Pairs) -> Vec<f64> {
+        let diagonal = self.stiffness.diagonal();
+        let norm = |v: &mut dyn Iterator<Item = f64>| v.map(|x| x * x).sum::<f64>().sqrt();
+        let of = |(k, &lambda): (usize, &f64)| {
+            let x: Vec<f64> = pairs.vectors.col(k).iter().copied().collect();
+            let (kx, mx) = (self.stiffness.apply(&x), self.mass.apply(&x));
+            let difference = norm(&mut kx.iter().zip(&mx).map(|(k, m)| k - lambda * m));
+            let size = norm(&mut diagonal.iter().zip(&x).map(|(d, x)| d * x))
+                + lambda.abs() * norm(&mut mx.iter().copied());
+            if size > 0.0 { difference / size } else { difference }
+        };
+        pairs.eigenvalues.iter().enumerate().map(of).collect()
+    }
+}
+
+/// Numbers in (-1, 1) that are the same in every run (a linear congruential sequence, Knuth's MMIX constants).
+fn random_block(n: usize, columns: usize) -> Mat<f64> {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    Mat::from_fn(n, columns, |_, _| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    })
+}
+
+impl Modes {
+    /// Number of modes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.eigenvalues.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.eigenvalues.is_empty()
+    }
+
+    /// T1 to R3 of a grid in mode `mode` (from 0), in its CD system; of a scalar point the first value.
+    #[must_use]
+    pub fn at(&self, mode: usize, id: Id) -> Option<[f64; 6]> {
+        if mode >= self.len() {
+            return None;
+        }
+        let point = self.freedoms.point(id)?;
+        let width = if point.is_scalar { 1 } else { 6 };
+        let column = self.shapes.col(mode);
+        Some(std::array::from_fn(|i| if i < width { column[point.first + i] } else { 0.0 }))
+    }
+
+    /// The modes as a results file would hold them: eigenvalue table, eigenvectors in CD systems, and the grid point
+    /// weight of the model. Later stages take either. Modes are numbered from 1.
+    #[must_use]
+    pub fn results(&self, model: &FemModel, source: &str) -> ModalResults {
+        let row = |k: usize| {
+            let (lambda, mass) = (self.eigenvalues[k], self.generalized_masses[k]);
+            RealMode {
+                mode: k as u32 + 1,
+                extraction_order: k as u32 + 1,
+                eigenvalue: lambda,
+                omega_rad_s: lambda.abs().sqrt(),
+                frequency_hz: self.frequencies_hz[k],
+                generalized_mass: mass,
+                generalized_stiffness: lambda * mass,
+            }
+        };
+        ModalResults {
+            source: source.to_owned(),
+            dialect: Dialect::Unknown,
+            eigenvalues: vec![EigenvalueTable {
+                subcase: None,
+                modes: (0..self.len()).map(row).collect(),
+                line: 0,
+            }],
+            eigenvectors: (0..self.len()).map(|k| self.vector(k)).collect(),
+            weights: vec![model.weight()],
+            diagnostics: Vec::new(),
+        }
+    }
+
+    fn vector(&self, k: usize) -> Eigenvector {
+        let column = self.shapes.col(k);
+        let points = self.freedoms.points().iter().zip(&self.systems);
+        let rows = points.map(|(point, &cd)| {
+            let mut values = [f64::NAN; 6];
+            let width = if point.is_scalar { 1 } else { 6 };
+            for (i, value) in values.iter_mut().enumerate().take(width) {
+                *value = column[point.first + i];
+            }
+            EigenvectorRow {
+                id: point.id,
+                kind: if point.is_scalar { PointKind::Scalar } else { PointKind::Grid },
+                cd: (!point.is_scalar).then_some(cd),
+                values,
+            }
+        });
+        Eigenvector {
+            subcase: None,
+            block: 0,
+            mode: k as u32 + 1,
+            eigenvalue: Some(self.eigenvalues[k]),
+            frequency_hz: Some(self.frequencies_hz[k]),
+            rows: rows.collect(),
+            line: 0,
+        }
+    }
+}

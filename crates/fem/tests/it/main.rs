@@ -1,0 +1,5 @@
+//! Integration tests of the finite element solver.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod fixtures;
+mod support;
