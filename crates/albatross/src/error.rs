@@ -70,6 +70,17 @@ pub enum Error {
     /// From the AVL reader.
     #[error(transparent)]
     Avl(#[from] albatross_avl::AvlError),
+    /// From the finite elements.
+    #[error(transparent)]
+    Fem(#[from] albatross_fem::Error),
+    /// From the vortex lattice.
+    #[error("{file}: {source}")]
+    Lattice {
+        /// Geometry file.
+        file: String,
+        /// Cause.
+        source: albatross_vlm::Error,
+    },
     /// From the modal basis.
     #[error(transparent)]
     Modal(#[from] albatross_modal::Error),

@@ -1,11 +1,15 @@
 //! The files that a case names, read.
 
 use crate::Error;
-use crate::case::{Case, SignalCase};
+use crate::case::{Case, SOLVE, SignalCase, StripFileCase};
+use crate::lattice::{self, Level};
+use crate::modes;
 use crate::tables::{self, Columns};
 use albatross_avl::geometry::Geometry;
 use albatross_avl::results::{StabilityDerivatives, StripForces};
+use albatross_flight::atmosphere;
 use albatross_flight::derivatives::LongitudinalCorrections;
+use albatross_modal::{MassProperties, ModalBasis};
 use albatross_nastran::{Deck, ModalResults, bdf, f06};
 use albatross_strip::slopes::SlopeTable;
 use std::path::{Path, PathBuf};
@@ -25,8 +29,10 @@ pub struct Inputs {
     pub geometry: Geometry,
     /// AVL derivatives.
     pub derivatives: StabilityDerivatives,
-    /// AVL strip forces at the two incidences of the case.
+    /// AVL strip forces at two incidences.
     pub strips: [StripForces; 2],
+    /// The two incidences \[deg\].
+    pub strip_alphas_deg: [f64; 2],
     /// Lift slopes of higher fidelity.
     pub slope_table: Option<SlopeTable>,
     /// Longitudinal derivatives of higher fidelity.
@@ -45,23 +51,38 @@ impl Inputs {
     /// The reader's error of the first file that cannot be used.
     pub fn read(case_file: &Path) -> Result<Self, Error> {
         let case = Case::parse(&read_text(case_file)?, &case_file.display().to_string())?;
-        let directory = case_file.parent().unwrap_or(Path::new("")).to_path_buf();
+        Self::of_case(case, case_file.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads all that a case names, relative to a directory, and computes what it does not name.
+    ///
+    /// # Errors
+    /// The error of the first file that cannot be used, or of a solver.
+    pub fn of_case(case: Case, directory: &Path) -> Result<Self, Error> {
+        let directory = directory.to_path_buf();
         let at = |name: &str| directory.join(name);
         let mut notes = Vec::new();
 
         let (deck, remarks) = bdf::read_strict(at(&case.structure.deck))?;
         notes.extend(remarks.iter().map(ToString::to_string));
-        let results = read_results(&at(&case.structure.results))?;
+        let results = if case.structure.results == SOLVE {
+            let (results, remarks) = modes::solve(&deck, &case.structure)?;
+            notes.extend(remarks);
+            results
+        } else {
+            read_results(&at(&case.structure.results))?
+        };
         notes.extend(results.diagnostics.iter().map(ToString::to_string));
 
-        let (geometry, remarks) = avl(&at(&case.aerodynamics.geometry), Geometry::parse)?;
-        notes.extend(remarks.iter().map(ToString::to_string));
-        let derivatives = avl(&at(&case.aerodynamics.derivatives), StabilityDerivatives::parse)?;
-        let [low, high] = &case.aerodynamics.strips;
-        let strips = [
-            avl(&at(&low.file), StripForces::parse)?,
-            avl(&at(&high.file), StripForces::parse)?,
-        ];
+        let Aerodynamics {
+            geometry,
+            derivatives,
+            strips,
+            strip_alphas_deg,
+        } = match case.aerodynamics.files() {
+            Some(files) => read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?,
+            None => solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?,
+        };
 
         let corrections = case.corrections.as_ref();
         let slope_table = corrections
@@ -80,6 +101,7 @@ impl Inputs {
             geometry,
             derivatives,
             strips,
+            strip_alphas_deg,
             slope_table,
             longitudinal,
             notes,
@@ -106,6 +128,85 @@ impl Inputs {
             columns.numbers(value_column)?,
         )))
     }
+}
+
+/// What a case takes of AVL.
+struct Aerodynamics {
+    geometry: Geometry,
+    derivatives: StabilityDerivatives,
+    strips: [StripForces; 2],
+    strip_alphas_deg: [f64; 2],
+}
+
+fn read_aerodynamics(
+    geometry: &str,
+    (derivatives, [low, high]): (&String, &[StripFileCase; 2]),
+    directory: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Aerodynamics, Error> {
+    let at = |name: &str| directory.join(name);
+    let (geometry, remarks) = avl(&at(geometry), Geometry::parse)?;
+    notes.extend(remarks.iter().map(ToString::to_string));
+    Ok(Aerodynamics {
+        geometry,
+        derivatives: avl(&at(derivatives), StabilityDerivatives::parse)?,
+        strips: [
+            avl(&at(&low.file), StripForces::parse)?,
+            avl(&at(&high.file), StripForces::parse)?,
+        ],
+        strip_alphas_deg: [low.alpha_deg, high.alpha_deg],
+    })
+}
+
+/// AVL's results computed: the lattice is trimmed in level flight about the centre of gravity that flies.
+fn solve_aerodynamics(
+    case: &Case,
+    directory: &Path,
+    deck: &Deck,
+    results: &ModalResults,
+    notes: &mut Vec<String>,
+) -> Result<Aerodynamics, Error> {
+    let file = directory.join(&case.aerodynamics.geometry);
+    let (mut geometry, remarks) = avl(&file, Geometry::parse)?;
+    notes.extend(remarks.iter().map(ToString::to_string));
+    let mass = mass_that_flies(&case.basis(deck, results)?)?;
+    [geometry.x_ref, geometry.y_ref, geometry.z_ref] = mass.cg;
+    let (lattice, remarks) = lattice::lattice_of(&geometry, &file)?;
+    notes.extend(remarks);
+    let choice = case.aerodynamics.lattice.clone().unwrap_or_default();
+    let flight = &case.flight;
+    let pressure = 0.5 * atmosphere::standard(flight.altitude).density * flight.speed().powi(2);
+    let level = Level {
+        mach: choice.mach.unwrap_or(if geometry.mach > 0.0 {
+            geometry.mach
+        } else {
+            flight.mach()
+        }),
+        lift: mass.mass * flight.gravity * flight.path_angle_deg.to_radians().cos()
+            / (pressure * geometry.s_ref),
+        control: flight.trim_control.clone(),
+    };
+    let solved = lattice::solve(&lattice, &choice, &level, &file)?;
+    notes.push(solved.note);
+    Ok(Aerodynamics {
+        geometry,
+        derivatives: solved.derivatives,
+        strips: solved.strips,
+        strip_alphas_deg: choice.alphas_deg,
+    })
+}
+
+/// Mass, centre of gravity and inertia of the basis.
+///
+/// # Errors
+/// [`Error::Mismatch`] if neither deck nor results tell them.
+pub fn mass_that_flies(basis: &ModalBasis) -> Result<MassProperties, Error> {
+    basis.mass.ok_or_else(|| Error::Mismatch {
+        what: "mass of the aircraft".into(),
+        found: "neither a complete mass matrix in the deck nor a grid point weight generator in the results"
+            .into(),
+        expected: "PARAM,GRDPNT,0 in the deck, so that the results hold the weight generator".into(),
+    })
 }
 
 /// Reads modal results; remarks of severity error are refused with their places.

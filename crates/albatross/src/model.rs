@@ -1,16 +1,16 @@
 //! The model of one variant of a case: basis, strips, aircraft, trim.
 
 use crate::Error;
-use crate::case::{Damping, ModeChoice, SensorCase, ThrustLine, VariantCase, grid_list};
+use crate::case::{Damping, SensorCase, ThrustLine, VariantCase, grid_list};
 use crate::controls::control_loads;
-use crate::inputs::Inputs;
+use crate::inputs::{Inputs, mass_that_flies};
 use crate::strips::{StripSet, strip_set};
 use albatross_flight::derivatives::{AvlOptions, from_avl};
 use albatross_flight::{
     Aircraft, ElasticPart, Engine, EquationsOfMotion, FlightPoint, ModelOptions, Sensor, SensorPoint, Trim,
     atmosphere, trim,
 };
-use albatross_modal::{BasisOptions, Component, MassProperties, ModalBasis, Selection};
+use albatross_modal::{Component, MassProperties, ModalBasis};
 use albatross_numerics::Mat;
 use albatross_strip::forces::generalized_forces;
 use albatross_strip::kernels::JONES;
@@ -45,16 +45,12 @@ pub struct Model {
 impl Inputs {
     /// Mach number of the flight point.
     pub fn mach(&self) -> f64 {
-        let flight = &self.case.flight;
-        let sound = atmosphere::standard(flight.altitude).speed_of_sound;
-        flight.mach.or(flight.speed.map(|v| v / sound)).unwrap_or(0.0)
+        self.case.flight.mach()
     }
 
     /// True airspeed of the flight point \[m/s\].
     pub fn speed(&self) -> f64 {
-        let flight = &self.case.flight;
-        let sound = atmosphere::standard(flight.altitude).speed_of_sound;
-        flight.speed.or(flight.mach.map(|m| m * sound)).unwrap_or(0.0)
+        self.case.flight.speed()
     }
 
     /// The modal basis of the case.
@@ -62,18 +58,7 @@ impl Inputs {
     /// # Errors
     /// As [`ModalBasis::from_nastran`].
     pub fn basis(&self) -> Result<ModalBasis, Error> {
-        let structure = &self.case.structure;
-        let options = BasisOptions {
-            modes: match &structure.modes {
-                ModeChoice::Lowest(n) => Selection::FirstElastic(*n),
-                ModeChoice::Numbers(numbers) => Selection::Numbers(numbers.clone()),
-            },
-            subcase: structure.subcase,
-            mean_axes_tolerance: structure.mean_axes_tolerance,
-            on_violation: structure.on_violation.into(),
-            ..BasisOptions::default()
-        };
-        Ok(ModalBasis::from_nastran(&self.deck, &self.results, &options)?)
+        self.case.basis(&self.deck, &self.results)
     }
 }
 
@@ -124,13 +109,7 @@ impl Model {
             });
         }
         let basis = inputs.basis()?;
-        let mass = basis.mass.ok_or_else(|| Error::Mismatch {
-            what: "mass of the aircraft".into(),
-            found:
-                "neither a complete mass matrix in the deck nor a grid point weight generator in the results"
-                    .into(),
-            expected: "PARAM,GRDPNT,0 in the deck, so that the results hold the weight generator".into(),
-        })?;
+        let mass = mass_that_flies(&basis)?;
         let damping = inputs.damping(basis.modes.len())?;
         let strips = strip_set(inputs, &basis, variant)?;
         let mut notes: Vec<String> = inputs

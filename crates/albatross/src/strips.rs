@@ -30,8 +30,8 @@ pub struct StripSet {
 /// tables, of the interpolation and of the corrections.
 pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> Result<StripSet, Error> {
     let aerodynamics = &inputs.case.aerodynamics;
-    let ([low, high], [low_case, high_case]) = (&inputs.strips, &aerodynamics.strips);
-    let all = slopes::from_avl(low, low_case.alpha_deg, high, high_case.alpha_deg)?;
+    let ([low, high], [low_deg, high_deg]) = (&inputs.strips, inputs.strip_alphas_deg);
+    let all = slopes::from_avl(low, low_deg, high, high_deg)?;
     let mut notes = Vec::new();
     let mut records = Vec::new();
     let mut lra = Vec::new();
@@ -48,7 +48,7 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
             return Err(Error::UnknownName {
                 kind: "surface",
                 name: surface.name.clone(),
-                known: format!("{} (in {})", known.join(", "), low_case.file),
+                known: format!("{} (in {})", known.join(", "), aerodynamics.geometry),
             });
         }
         for record in own {

@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::identification::args::{CompareOptions, IdentifyCommand, ResidualArguments};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Flight dynamics of flexible high-aspect-ratio aircraft.
@@ -36,6 +36,10 @@ pub(crate) enum Command {
     Compare(Box<CompareOptions>),
     /// What a model leaves unexplained in records: whiteness, dependence on the input.
     Residuals(Box<ResidualArguments>),
+    /// Normal modes of a Nastran deck: no Nastran needed.
+    SolveModes(SolveModesOptions),
+    /// Vortex lattice of an AVL geometry: no AVL needed.
+    Vlm(Box<VlmOptions>),
     /// A neutral wing model (JSON): matrices, flutter, divergence, as JSON.
     Wing {
         /// Model file; `-` reads standard input.
@@ -115,4 +119,129 @@ pub(crate) struct SimulateOptions {
     /// Write all samples as CSV to this file.
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SolveModesOptions {
+    /// Nastran deck.
+    pub(crate) deck: PathBuf,
+    /// Number of modes, rigid-body modes included; that of the deck's EIGRL or EIGR by default, else 20.
+    #[arg(long, value_name = "N")]
+    pub(crate) modes: Option<usize>,
+    /// Lower end of the frequency range \[Hz\].
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Upper end of the frequency range \[Hz\].
+    #[arg(long, value_name = "HZ")]
+    pub(crate) to: Option<f64>,
+    /// How the mass of elements is spread; as PARAM,COUPMASS of the deck says by default.
+    #[arg(long, value_enum)]
+    pub(crate) mass: Option<MassChoice>,
+    /// Subcase whose SPC, MPC and METHOD count.
+    #[arg(long, value_name = "N")]
+    pub(crate) subcase: Option<u32>,
+    /// Leave out elements that are not modelled, instead of stopping.
+    #[arg(long)]
+    pub(crate) leave_out_unknown: bool,
+    /// Eigenvectors into the JSON.
+    #[arg(long)]
+    pub(crate) vectors: bool,
+    /// Write eigenvalues, eigenvectors and grid point weight in the layout of an f06.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) f06: Option<PathBuf>,
+    /// JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No notes on standard error.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MassChoice {
+    /// Half of it at each end.
+    Lumped,
+    /// Consistent with the displacements within the element.
+    Coupled,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct VlmOptions {
+    /// AVL geometry.
+    pub(crate) geometry: PathBuf,
+    /// Mach number; that of the geometry file by default.
+    #[arg(long, value_name = "M")]
+    pub(crate) mach: Option<f64>,
+    /// Angle of attack \[deg\]; 0 by default.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub(crate) alpha: Option<f64>,
+    /// Sideslip \[deg\].
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub(crate) beta: Option<f64>,
+    /// Roll rate p b/2V.
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
+    pub(crate) pb2v: Option<f64>,
+    /// Pitch rate q c/2V.
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
+    pub(crate) qc2v: Option<f64>,
+    /// Yaw rate r b/2V.
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
+    pub(crate) rb2v: Option<f64>,
+    /// Deflection of a control, in degrees times its gain.
+    #[arg(long = "set", value_name = "CONTROL=DEG")]
+    pub(crate) set: Vec<String>,
+    /// Lift coefficient that the angle of attack is to reach.
+    #[arg(
+        long,
+        value_name = "CL",
+        allow_negative_numbers = true,
+        conflicts_with = "alpha"
+    )]
+    pub(crate) cl: Option<f64>,
+    /// Variable that brings a coefficient to zero, or to a value: `elevator=Cm`, `aileron=Cl=0.01`, `beta=CY`.
+    /// Variables are alpha, beta, pb2v, qc2v, rb2v and the controls; coefficients CL, CY, Cl, Cm, Cn.
+    #[arg(long, value_name = "VARIABLE=COEFFICIENT[=VALUE]")]
+    pub(crate) trim: Vec<String>,
+    /// Run cases of AVL (.run); their constraints, Mach number, profile drag and moment point hold where no option says
+    /// otherwise.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) run: Option<PathBuf>,
+    /// Number of the run case.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "run")]
+    pub(crate) case: usize,
+    /// Moment reference point; that of the geometry file by default.
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        num_args = 3,
+        allow_negative_numbers = true
+    )]
+    pub(crate) reference_point: Option<Vec<f64>>,
+    /// Version of AVL whose method is followed.
+    #[arg(long, value_enum, default_value = "avl352")]
+    pub(crate) core: CoreChoice,
+    /// Forces on the trailing legs that lie on the surface; as in that version by default.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    pub(crate) leg_forces: Option<bool>,
+    /// Threads.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) threads: usize,
+    /// Write PREFIX.st, PREFIX.ft and PREFIX.fs as AVL 3.52 does.
+    #[arg(long, value_name = "PREFIX")]
+    pub(crate) write: Option<PathBuf>,
+    /// JSON on standard output, with AVL's names as keys.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No notes on standard error.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CoreChoice {
+    /// AVL 3.32, and up to 3.40.
+    Avl332,
+    /// AVL 3.52.
+    Avl352,
 }

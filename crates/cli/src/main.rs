@@ -4,9 +4,11 @@ mod args;
 mod case;
 mod figures;
 mod identification;
+mod lattice;
 mod neutral;
 mod output;
 mod run;
+mod solve_modes;
 mod tables;
 
 use args::{Arguments, Command};
@@ -27,6 +29,8 @@ fn main() -> ExitCode {
         Command::Identify(options) => identification::identify(options),
         Command::Compare(options) => identification::compare(options),
         Command::Residuals(options) => identification::residuals(options),
+        Command::SolveModes(options) => solve_modes::solve_modes(options),
+        Command::Vlm(options) => lattice::vlm(options),
         Command::Wing { file } => neutral::wing(file),
         Command::Aircraft { file } => neutral::aircraft(file),
     };

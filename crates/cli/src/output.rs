@@ -9,6 +9,14 @@ pub(crate) enum Failure {
     /// From the library.
     #[error(transparent)]
     Albatross(#[from] albatross::Error),
+    /// From a solver that does not know the file.
+    #[error("{file}: {source}")]
+    Solver {
+        /// File.
+        file: String,
+        /// Cause.
+        source: albatross::Error,
+    },
     /// From a neutral model.
     #[error(transparent)]
     Neutral(#[from] albatross::neutral::NeutralError),

@@ -8,7 +8,9 @@
 //! Eq. 12 is printed with `Q_eta_etadd` inside Pi_1 and Pi_2; Eq. 10 shows that `Q_eta_eta` and `Q_eta_etad` are
 //! meant, and they are used here.
 
-use crate::forces::{Downwash, GeneralizedForces, Split, downwash, generalized_forces};
+use crate::forces::{
+    Downwash, GeneralizedForces, Split, downwash, generalized_forces, generalized_forces_between,
+};
 use crate::kernels::Lag;
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};
@@ -168,6 +170,21 @@ impl AeroelasticModel {
             downwash,
             lags: lags.to_vec(),
         })
+    }
+
+    /// The same with lift induced between the strips ([`generalized_forces_between`]).
+    ///
+    /// # Errors
+    /// As [`generalized_forces_between`].
+    pub fn with_influence(
+        self,
+        influence: &Mat<f64>,
+        theory: &StripTheory,
+        split: Split,
+    ) -> Result<Self, Error> {
+        let (strips, shapes) = (&self.strips, &self.shapes);
+        let forces = generalized_forces_between(strips, influence, shapes, shapes, theory, split)?;
+        Ok(Self { forces, ..self })
     }
 
     /// Number of elastic coordinates.

@@ -22,7 +22,7 @@
 
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};
-use crate::{Error, ensure_rows};
+use crate::{Error, ensure_finite_entries, ensure_rows, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Which part of the flow the terms of plunge rate and pitch are booked under. Sums are identical.
@@ -89,13 +89,51 @@ pub fn downwash(strips: &[Strip], trial: &StripShapes, theory: &StripTheory) -> 
     })
 }
 
-/// The generalised forces on `test` shapes due to motion in `trial` shapes.
+/// The generalised forces on `test` shapes due to motion in `trial` shapes, each strip's lift by its own downwash.
 ///
 /// # Errors
 /// [`Error::Shape`] if shapes and strips differ in number, [`Error::NotFinite`] for shapes with NaN or infinities,
 /// [`Error::BadStrip`] for an unusable strip, [`Error::BadOption`] for an unusable factor on the apparent mass.
 pub fn generalized_forces(
     strips: &[Strip],
+    test: &StripShapes,
+    trial: &StripShapes,
+    theory: &StripTheory,
+    split: Split,
+) -> Result<GeneralizedForces, Error> {
+    assemble(strips, None, test, trial, theory, split)
+}
+
+/// The same with lift induced between strips: `influence[(j, i)]` is the lift of strip j per `rho V w_i` \[m²\], in the
+/// place of the diagonal of [`Strip::lift_factor`]. A vortex lattice gives it (see [`influence_of`]); the lags stay those
+/// of each strip's own downwash, so that the induced lift builds up with the wake of the strip that causes it.
+///
+/// # Errors
+/// As [`generalized_forces`], [`Error::Shape`] and [`Error::NotFinite`] for the influence as well.
+pub fn generalized_forces_between(
+    strips: &[Strip],
+    influence: &Mat<f64>,
+    test: &StripShapes,
+    trial: &StripShapes,
+    theory: &StripTheory,
+    split: Split,
+) -> Result<GeneralizedForces, Error> {
+    ensure_shape("lift between strips", influence, (strips.len(), strips.len()))?;
+    ensure_finite_entries("lift between strips", influence)?;
+    assemble(strips, Some(influence), test, trial, theory, split)
+}
+
+/// Influence of strips on each other from lift slopes between them, `slopes[(j, i)] = d(c c_l)_j / d(incidence)_i` \[m\]:
+/// half of them times the width of the strip that carries the lift.
+pub fn influence_of(strips: &[Strip], slopes: &Mat<f64>) -> Mat<f64> {
+    Mat::from_fn(slopes.nrows(), slopes.ncols(), |j, i| {
+        0.5 * strips.get(j).map_or(0.0, |s| s.width) * slopes[(j, i)]
+    })
+}
+
+fn assemble(
+    strips: &[Strip],
+    influence: Option<&Mat<f64>>,
     test: &StripShapes,
     trial: &StripShapes,
     theory: &StripTheory,
@@ -118,8 +156,6 @@ pub fn generalized_forces(
         .zip(&apparent_mass)
         .map(|(s, m)| m * s.semi_chord().powi(2) / 8.0)
         .collect();
-    let lift: Vec<f64> = strips.iter().map(Strip::lift_factor).collect();
-
     let test_ac = test.at(strips, |s| s.x_ac);
     let test_mid = test.at(strips, Strip::x_mid);
     let test_34 = test.at(strips, Strip::x_three_quarter);
@@ -129,9 +165,16 @@ pub fn generalized_forces(
     let eta_etadd_nc = -(weighted_product(&apparent_mass, &test_mid, &trial_mid)
         + weighted_product(&couple_inertia, &test.gamma, &trial.gamma));
     let mut eta_etad_nc = weighted_product(&apparent_mass, &test_34, &trial.gamma);
-    let mut eta_etad_c = -weighted_product(&lift, &test_ac, &trial_34);
+    // What a unit of `rho V w` on each strip does to the test shapes.
+    let eta_lambda_c = match influence {
+        None => Mat::from_fn(test.n_shapes(), strips.len(), |k, j| {
+            strips[j].lift_factor() * test_ac[(j, k)]
+        }),
+        Some(influence) => test_ac.transpose() * influence,
+    };
+    let mut eta_etad_c = -(&eta_lambda_c * &trial_34);
     let mut eta_eta_nc = Mat::zeros(test.n_shapes(), trial.n_shapes());
-    let mut eta_eta_c = weighted_product(&lift, &test_ac, &trial.gamma);
+    let mut eta_eta_c = &eta_lambda_c * &trial.gamma;
     if split == Split::Theodorsen {
         let munk_pitch = weighted_product(&apparent_mass, &test.gamma, &trial.gamma);
         let munk_rate = weighted_product(
@@ -144,7 +187,6 @@ pub fn generalized_forces(
         eta_etad_nc -= &munk_rate;
         eta_etad_c += munk_rate;
     }
-    let eta_lambda_c = Mat::from_fn(test.n_shapes(), strips.len(), |k, j| lift[j] * test_ac[(j, k)]);
     Ok(GeneralizedForces {
         eta_etadd_nc,
         eta_etad_nc,
@@ -232,6 +274,45 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// A diagonal influence is the strips' own; one that couples two strips lifts the second by the first's incidence.
+    #[test]
+    fn prop_influence_between_strips() {
+        let strips = [strip(), Strip { y: -3.0, ..strip() }];
+        let basis = StripShapes {
+            phi: Mat::from_fn(2, 2, |j, k| 0.4 + j as f64 - 0.7 * k as f64),
+            gamma: Mat::from_fn(2, 2, |j, k| f64::from(j == k)),
+        };
+        let theory = StripTheory::default();
+        let own = generalized_forces(&strips, &basis, &basis, &theory, Split::Theodorsen).unwrap();
+        let between = |influence: &Mat<f64>| {
+            generalized_forces_between(&strips, influence, &basis, &basis, &theory, Split::Theodorsen)
+                .unwrap()
+        };
+        let slopes = Mat::from_fn(2, 2, |j, k| {
+            f64::from(j == k) * strips[j].cl_alpha * strips[j].chord
+        });
+        let mut influence = influence_of(&strips, &slopes);
+        let same = between(&influence);
+        for (a, b) in [
+            (&own.eta_eta_c, &same.eta_eta_c),
+            (&own.eta_etad_c, &same.eta_etad_c),
+            (&own.eta_lambda_c, &same.eta_lambda_c),
+        ] {
+            assert!((a - b).norm_max() < 1e-14 * a.norm_max());
+        }
+        influence[(1, 0)] = 0.25;
+        let coupled = between(&influence);
+        let arm = strips[1].x_ac - strips[1].x_lra;
+        for k in 0..2 {
+            let collected = basis.phi[(1, k)] - arm * basis.gamma[(1, k)];
+            let change = coupled.eta_eta_c[(k, 0)] - own.eta_eta_c[(k, 0)];
+            assert!((change - 0.25 * collected).abs() < 1e-13);
+        }
+        let square = Mat::zeros(2, 3);
+        let refused = generalized_forces_between(&strips, &square, &basis, &basis, &theory, Split::default());
+        assert!(matches!(refused, Err(Error::Shape { .. })));
     }
 
     #[test]

@@ -35,7 +35,8 @@
 //! | [`section`] | the typical section |
 //!
 //! # Limits
-//! Attached flow, small motion, chordwise-rigid sections, no aerodynamic coupling between strips. The lags are those
+//! Attached flow, small motion, chordwise-rigid sections. No aerodynamic coupling between strips, unless their influence
+//! on each other is given ([`forces::generalized_forces_between`]), which then acts without delay by distance. The lags are those
 //! of incompressible flow; compressibility enters by the lift slopes alone. A lift slope other than 2 pi with the
 //! downwash at three-quarter chord may feed a mode energy at the smallest speeds, which structural damping covers.
 //!

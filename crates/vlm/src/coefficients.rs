@@ -103,7 +103,11 @@ impl Table {
         let lattice = solver.lattice();
         Self {
             value: Coefficients::of(&loads.total, lattice),
-            changes: loads.changes.iter().map(|c| Coefficients::of(c, lattice)).collect(),
+            changes: loads
+                .changes
+                .iter()
+                .map(|c| Coefficients::of(c, lattice))
+                .collect(),
             condition: flow.condition.clone(),
             rate_scale: rate_scale(lattice),
             rotation: flow.condition.rotation(lattice),
@@ -165,13 +169,15 @@ impl Table {
         // The rotation vector turns with the stability axes about y.
         let turn = V3::new(-self.rotation.z, 0.0, self.rotation.x);
         let change = self.along(&self.condition.wind_alpha(), &turn);
-        self.resolved(&change).plus(&self.value.stability_turn(self.condition.alpha_rad))
+        self.resolved(&change)
+            .plus(&self.value.stability_turn(self.condition.alpha_rad))
     }
 
     /// By alpha with the rates in body axes held.
     pub(crate) fn stability_alpha_body_rates(&self) -> Stability {
         let change = self.alpha_body_rates();
-        self.resolved(&change).plus(&self.value.stability_turn(self.condition.alpha_rad))
+        self.resolved(&change)
+            .plus(&self.value.stability_turn(self.condition.alpha_rad))
     }
 
     /// By `p'b/2V` (0), `qc/2V` (1), `r'b/2V` (2) in stability axes.

@@ -69,7 +69,12 @@ impl Trim {
     pub fn of_run_case(lattice: &Lattice, case: &RunCase) -> Result<Self> {
         let mut trim = Self::new(lattice);
         for constraint in &case.constraints {
-            trim.set(lattice, &constraint.variable, constraint.target.clone(), constraint.value)?;
+            trim.set(
+                lattice,
+                &constraint.variable,
+                constraint.target.clone(),
+                constraint.value,
+            )?;
         }
         Ok(trim)
     }
@@ -78,7 +83,13 @@ impl Trim {
     ///
     /// # Errors
     /// [`Error::UnknownControl`].
-    pub fn set(&mut self, lattice: &Lattice, variable: &RunVariable, kind: RunTarget, value: f64) -> Result<()> {
+    pub fn set(
+        &mut self,
+        lattice: &Lattice,
+        variable: &RunVariable,
+        kind: RunTarget,
+        value: f64,
+    ) -> Result<()> {
         let index = match variable {
             RunVariable::Alpha => 0,
             RunVariable::Beta => 1,
@@ -185,7 +196,12 @@ fn target_name(kind: &RunTarget) -> String {
 /// Names of the variables.
 fn variable_name(lattice: &Lattice, k: usize) -> String {
     ["alpha", "beta", "pb/2V", "qc/2V", "rb/2V"].get(k).map_or_else(
-        || lattice.controls.get(k - 5).map_or_else(String::new, |c| c.name.clone()),
+        || {
+            lattice
+                .controls
+                .get(k - 5)
+                .map_or_else(String::new, |c| c.name.clone())
+        },
         |n| (*n).to_owned(),
     )
 }
@@ -206,8 +222,11 @@ impl Solver<'_> {
                 expected: n,
             });
         }
-        let measures: Vec<Measure> =
-            trim.targets.iter().map(|t| Measure::of(lattice, &t.kind)).collect::<Result<_>>()?;
+        let measures: Vec<Measure> = trim
+            .targets
+            .iter()
+            .map(|t| Measure::of(lattice, &t.kind))
+            .collect::<Result<_>>()?;
         for (k, measure) in measures.iter().enumerate() {
             if let Some(first) = measures[..k].iter().position(|m| m == measure) {
                 return Err(Error::TargetTwice {
@@ -217,7 +236,11 @@ impl Solver<'_> {
                 });
             }
         }
-        let goals: Vec<f64> = measures.iter().zip(&trim.targets).map(|(m, t)| m.goal(t.value)).collect();
+        let goals: Vec<f64> = measures
+            .iter()
+            .zip(&trim.targets)
+            .map(|(m, t)| m.goal(t.value))
+            .collect();
         // Variables that are given directly start at their value.
         let mut x = vec![0.0; n];
         for (measure, goal) in measures.iter().zip(&goals) {
@@ -246,7 +269,10 @@ impl Solver<'_> {
                 return Ok(solution);
             }
             let step = solve::solve_vec(jacobian.as_ref(), &residual).map_err(|_| Error::TrimSingular {
-                target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+                target: trim
+                    .targets
+                    .get(worst.0)
+                    .map_or_else(String::new, |t| target_name(&t.kind)),
                 iteration,
             })?;
             x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
@@ -263,7 +289,10 @@ impl Solver<'_> {
         }
         Err(Error::TrimNotConverged {
             iterations: ITERATIONS,
-            target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+            target: trim
+                .targets
+                .get(worst.0)
+                .map_or_else(String::new, |t| target_name(&t.kind)),
             residual: worst.1,
         })
     }

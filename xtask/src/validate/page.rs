@@ -33,14 +33,11 @@ pub(crate) fn inputs(root: &Path, study: &Study) -> Result<Table, Error> {
         (own(&case.structure.deck), "Nastran deck"),
         (own(&case.structure.results), "SOL 103 results"),
         (own(&case.aerodynamics.geometry), "AVL geometry"),
-        (own(&case.aerodynamics.derivatives), "AVL stability derivatives"),
     ];
-    named.extend(
-        case.aerodynamics
-            .strips
-            .iter()
-            .map(|s| (own(&s.file), "AVL strip forces")),
-    );
+    if let Some((derivatives, strips)) = case.aerodynamics.files() {
+        named.push((own(derivatives), "AVL stability derivatives"));
+        named.extend(strips.iter().map(|s| (own(&s.file), "AVL strip forces")));
+    }
     if let Some(corrections) = &case.corrections {
         named.extend(
             corrections

@@ -10,7 +10,11 @@ pub use manoeuvre::{ManoeuvreCase, SignalCase};
 
 use crate::Error;
 use albatross_flight::derivatives::DragLaw;
-use albatross_flight::{Attitude, ControlAerodynamics, Fidelity, Method, Quantity, ShapeReference};
+use albatross_flight::{
+    Attitude, ControlAerodynamics, Fidelity, Method, Quantity, ShapeReference, atmosphere,
+};
+use albatross_modal::{BasisOptions, ModalBasis, Selection};
+use albatross_nastran::{Deck, ModalResults};
 use albatross_numerics::interp;
 use albatross_strip::{DihedralForm, DownwashPoint, Split};
 use serde::Deserialize;
@@ -55,8 +59,10 @@ pub struct Case {
 pub struct StructureCase {
     /// Nastran deck.
     pub deck: String,
-    /// Printed results of SOL 103.
+    /// Printed results of SOL 103; or [`SOLVE`], which computes them from the deck.
     pub results: String,
+    /// Options of that computation.
+    pub solve: Option<ModalSolveCase>,
     /// Elastic modes that are kept: how many from the lowest, or their numbers in the file.
     pub modes: ModeChoice,
     /// Structural damping ratio of all modes, or one each.
@@ -82,6 +88,27 @@ fn default_tolerance() -> f64 {
 
 fn default_interpolation() -> interp::Method {
     interp::Method::Cubic
+}
+
+/// In the place of a results file: computed from the deck or the geometry.
+pub const SOLVE: &str = "solve";
+
+/// Options of the modal solution.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ModalSolveCase {
+    /// How the mass of elements is spread; as `PARAM,COUPMASS` of the deck says by default.
+    pub mass: Option<ElementMass>,
+}
+
+/// How the mass of elements is spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ElementMass {
+    /// Half of it at each end.
+    Lumped,
+    /// Consistent with the displacements within the element.
+    Coupled,
 }
 
 /// What to do with a mode that holds rigid motion.
@@ -133,10 +160,14 @@ pub enum Damping {
 pub struct AerodynamicsCase {
     /// AVL geometry.
     pub geometry: String,
+    /// [`SOLVE`] computes derivatives and strip forces from the geometry, in the place of AVL's files.
+    pub results: Option<String>,
+    /// Options of that computation.
+    pub lattice: Option<LatticeCase>,
     /// AVL stability derivatives (`.st`).
-    pub derivatives: String,
+    pub derivatives: Option<String>,
     /// AVL strip forces (`.fs`) at two incidences.
-    pub strips: [StripFileCase; 2],
+    pub strips: Option<[StripFileCase; 2]>,
     /// Where the strips' lift slopes come from.
     #[serde(default)]
     pub lift_slopes: LiftSlopes,
@@ -165,6 +196,39 @@ pub struct AerodynamicsCase {
     pub surfaces: Vec<SurfaceCase>,
 }
 
+impl AerodynamicsCase {
+    /// Derivatives and strip forces where they are read from files of AVL.
+    pub fn files(&self) -> Option<(&String, &[StripFileCase; 2])> {
+        self.derivatives.as_ref().zip(self.strips.as_ref())
+    }
+
+    /// What is wrong with the choice between files and computation, and the cure.
+    fn check_source(&self) -> Result<(), (String, &'static str)> {
+        const CURE: &str =
+            "name the files of AVL, `derivatives` and `strips`, or compute both with `results = \"solve\"`";
+        let named = [
+            ("derivatives", self.derivatives.is_some()),
+            ("strips", self.strips.is_some()),
+        ];
+        let name = |there: bool| named.iter().find(|(_, t)| *t == there).map(|(n, _)| *n);
+        match (&self.results, name(true), name(false)) {
+            (Some(results), ..) if results != SOLVE => {
+                Err((format!("[aerodynamics] results is \"{results}\""), CURE))
+            }
+            (Some(_), Some(name), _) => Err((
+                format!("[aerodynamics] has results = \"solve\" and `{name}`"),
+                CURE,
+            )),
+            (None, _, Some(name)) => Err((format!("[aerodynamics] has no `{name}`"), CURE)),
+            (None, ..) if self.lattice.is_some() => Err((
+                "[aerodynamics.lattice] is given, but the files of AVL are read".into(),
+                CURE,
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
 fn one() -> f64 {
     1.0
 }
@@ -178,6 +242,42 @@ pub enum LiftSlopes {
     Avl,
     /// `2 pi` with the Prandtl-Glauert rule on `M cos(sweep)`; the rigid loads stay AVL's.
     PrandtlGlauert,
+}
+
+/// Options of the lattice that takes AVL's place.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LatticeCase {
+    /// Version of AVL whose method is followed.
+    pub method: AvlVersion,
+    /// Whether the trailing legs on the surface carry forces; as in that version by default.
+    pub leg_forces: Option<bool>,
+    /// Mach number; that of the geometry file by default, of the flight point where the file has 0.
+    pub mach: Option<f64>,
+    /// The two incidences of the strips \[deg\].
+    pub alphas_deg: [f64; 2],
+}
+
+impl Default for LatticeCase {
+    fn default() -> Self {
+        Self {
+            method: AvlVersion::default(),
+            leg_forces: None,
+            mach: None,
+            alphas_deg: [1.0, 2.0],
+        }
+    }
+}
+
+/// A version of AVL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AvlVersion {
+    /// 3.32, and the versions up to 3.40.
+    Avl332,
+    /// 3.52.
+    #[default]
+    Avl352,
 }
 
 /// A strip file and its incidence.
@@ -253,6 +353,26 @@ pub struct FlightCase {
     /// How simulations keep attitude; linear analyses use Euler angles.
     #[serde(default)]
     pub attitude: Attitude,
+}
+
+impl FlightCase {
+    /// Mach number.
+    pub fn mach(&self) -> f64 {
+        self.mach
+            .or(self.speed.map(|v| v / self.speed_of_sound()))
+            .unwrap_or(0.0)
+    }
+
+    /// True airspeed \[m/s\].
+    pub fn speed(&self) -> f64 {
+        self.speed
+            .or(self.mach.map(|m| m * self.speed_of_sound()))
+            .unwrap_or(0.0)
+    }
+
+    fn speed_of_sound(&self) -> f64 {
+        atmosphere::standard(self.altitude).speed_of_sound
+    }
 }
 
 fn default_gravity() -> f64 {
@@ -413,6 +533,18 @@ impl Case {
             }
             _ => {}
         }
+        if let Err((message, cure)) = self.aerodynamics.check_source() {
+            return refuse(message, cure);
+        }
+        if self.structure.solve.is_some() && self.structure.results != SOLVE {
+            return refuse(
+                format!(
+                    "[structure.solve] is given, but `{}` is read",
+                    self.structure.results
+                ),
+                "set results = \"solve\", or remove the table",
+            );
+        }
         let dampings: &[f64] = match &self.structure.damping_ratio {
             Damping::Uniform(xi) => std::slice::from_ref(xi),
             Damping::PerMode(list) => list,
@@ -506,6 +638,25 @@ impl Case {
             });
         }
         Ok(())
+    }
+
+    /// The modal basis of a deck and its results, with the options of this case.
+    ///
+    /// # Errors
+    /// As [`ModalBasis::from_nastran`].
+    pub fn basis(&self, deck: &Deck, results: &ModalResults) -> Result<ModalBasis, Error> {
+        let structure = &self.structure;
+        let options = BasisOptions {
+            modes: match &structure.modes {
+                ModeChoice::Lowest(n) => Selection::FirstElastic(*n),
+                ModeChoice::Numbers(numbers) => Selection::Numbers(numbers.clone()),
+            },
+            subcase: structure.subcase,
+            mean_axes_tolerance: structure.mean_axes_tolerance,
+            on_violation: structure.on_violation.into(),
+            ..BasisOptions::default()
+        };
+        Ok(ModalBasis::from_nastran(deck, results, &options)?)
     }
 
     /// A variant by name, or the first one (a plain one if the case has none).

@@ -3,8 +3,8 @@
 mod strips;
 
 use albatross_avl::results::{
-    AxisOrientation, BodyColumn, BodyDerivatives, BodyForce, BodyForces, HingeMoment, HingeMoments, NamedColumn,
-    NamedValue, RunState, StabilityColumn, StabilityDerivatives, SurfaceForce, SurfaceForces,
+    AxisOrientation, BodyColumn, BodyDerivatives, BodyForce, BodyForces, HingeMoment, HingeMoments,
+    NamedColumn, NamedValue, RunState, StabilityColumn, StabilityDerivatives, SurfaceForce, SurfaceForces,
 };
 
 use crate::coefficients::{Coefficients, Stability, Table};
@@ -314,7 +314,12 @@ impl Solution<'_> {
             axes: None,
             s_ref: r.s_ref,
             c_ref: r.c_ref,
-            controls: lattice.controls.iter().zip(&self.flow.condition.controls).map(one).collect(),
+            controls: lattice
+                .controls
+                .iter()
+                .zip(&self.flow.condition.controls)
+                .map(one)
+                .collect(),
         }
     }
 }

@@ -25,7 +25,11 @@ fn differences(name: &str, ours: &str, avl: &str) -> Vec<(String, f64)> {
     let mut out = Vec::new();
     let numbers = |line: &str| -> Vec<String> {
         let spaced = line.replace('=', " = ");
-        spaced.split_whitespace().filter(|w| w.parse::<f64>().is_ok()).map(str::to_owned).collect()
+        spaced
+            .split_whitespace()
+            .filter(|w| w.parse::<f64>().is_ok())
+            .map(str::to_owned)
+            .collect()
     };
     for (k, (a, b)) in ours.lines().zip(avl.lines()).enumerate() {
         if a.contains("Run case") || b.contains("Configuration") {
@@ -53,7 +57,10 @@ fn val_digits_of_avl_352() {
     let mut found = BTreeMap::new();
     let mut report = |name: &str, ours: String| {
         let avl = read(&format!("avl_out/{name}"));
-        let total = avl.split_whitespace().filter(|w| w.parse::<f64>().is_ok()).count();
+        let total = avl
+            .split_whitespace()
+            .filter(|w| w.parse::<f64>().is_ok())
+            .count();
         let d = differences(name, &ours, &avl);
         println!("{name}: {} of {total} numbers differ", d.len());
         for line in &d {
@@ -68,15 +75,28 @@ fn val_digits_of_avl_352() {
             report("alpha0.ft", s.run_state(" -unnamed-").to_text().unwrap());
         }
         if alpha == 2.0 {
-            report("alpha2.st", s.stability_derivatives(" -unnamed-").to_text().unwrap());
+            report(
+                "alpha2.st",
+                s.stability_derivatives(" -unnamed-").to_text().unwrap(),
+            );
         }
     }
     let mut trim = Trim::new(&lattice);
-    trim.set(&lattice, &RunVariable::Alpha, RunTarget::Lift, 0.5644).unwrap();
-    trim.set(&lattice, &RunVariable::Control("elevator".into()), RunTarget::PitchMoment, 0.0).unwrap();
+    trim.set(&lattice, &RunVariable::Alpha, RunTarget::Lift, 0.5644)
+        .unwrap();
+    trim.set(
+        &lattice,
+        &RunVariable::Control("elevator".into()),
+        RunTarget::PitchMoment,
+        0.0,
+    )
+    .unwrap();
     let s = solver.trim(&trim).unwrap();
     report("trim.ft", s.run_state(" -unnamed-").to_text().unwrap());
-    report("trim.st", s.stability_derivatives(" -unnamed-").to_text().unwrap());
+    report(
+        "trim.st",
+        s.stability_derivatives(" -unnamed-").to_text().unwrap(),
+    );
     report("trim.fs", s.strip_forces().to_text().unwrap());
     println!("{:#?}", s.hinge_moments(None));
     println!("{:#?}", s.surface_forces().surfaces[5]);
