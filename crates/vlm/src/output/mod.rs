@@ -19,6 +19,9 @@ use crate::units::ONSETS;
 /// `Clb Cnr / Clr Cnb` is printed where the denominator is above this.
 const SPIRAL_LIMIT: f64 = 1e-4;
 
+/// Below this fraction of the area the normals of a surface cancel.
+const CLOSED: f64 = 1e-9;
+
 /// The flow at a flight condition with all its forces.
 pub struct Solution<'s> {
     solver: &'s Solver<'s>,
@@ -221,6 +224,16 @@ impl Solution<'_> {
         (sum, viscous)
     }
 
+    /// Lift coefficient of a surface's own area, normal to its mean spanwise direction. A closed ring has none: its
+    /// normals cancel, and the lift is that of the aircraft.
+    fn local_lift(&self, surface: &LatticeSurface, load: &Load) -> f64 {
+        let strips = &self.solver.lattice().strips[surface.strips.clone()];
+        let mean: V3 = strips.iter().map(|s| s.normal * s.area()).sum();
+        let length = mean.norm();
+        let normal = if length > CLOSED * surface.area { mean / length } else { V3::z() };
+        load.force.dot(&self.solver.lift_axis(&self.flow, &normal)) / surface.area
+    }
+
     /// Forces of each surface: the `.fn` file.
     pub fn surface_forces(&self) -> SurfaceForces {
         let lattice = self.solver.lattice();
@@ -245,7 +258,7 @@ impl Solution<'_> {
                 c_drag_induced: stability.drag - viscous,
                 c_drag_viscous: viscous,
                 average_chord: surface.average_chord,
-                cl_local: stability.lift * local,
+                cl_local: self.local_lift(surface, &load),
                 cd_local: stability.drag * local,
                 cdv_local: viscous * local,
                 cm_le_local: None,

@@ -37,7 +37,9 @@ fn differences(name: &str, ours: &str, avl: &str) -> Vec<(String, f64)> {
             let digits = y.split_once('.').map_or(0, |d| d.1.len());
             let (u, v) = (x.parse::<f64>().unwrap(), y.parse::<f64>().unwrap());
             let units = (u - v).abs() * 10_f64.powi(digits as i32);
-            if units > 0.5 {
+            // Where the lift prints as zero the centre of pressure is a quotient of rounding errors.
+            let no_lift = b.len() == 15 && b[6].trim_start_matches('-') == "0.0000" && digits == 3;
+            if units > 0.5 && !no_lift {
                 out.push((format!("{name}:{}: {x} for {y} in {:?}", k + 1, b), units));
             }
         }
