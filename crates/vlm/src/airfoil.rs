@@ -139,10 +139,14 @@ fn prepared(points: &[[f64; 2]]) -> Result<Outline, BadAirfoil> {
     if points.iter().flatten().any(|v| !v.is_finite()) {
         return Err(BadAirfoil("a coordinate is not finite".to_owned()));
     }
-    // Points that repeat their neighbour have no arc length.
-    let mut outline: Vec<[f64; 2]> = points.to_vec();
-    outline.dedup();
-    let outline = Outline::new(&outline)?;
+    // A point that is given twice is a corner. At the ends it would be a side of no length.
+    let first = points.windows(2).position(|w| w[0] != w[1]).unwrap_or(0);
+    let last = points.windows(2).rposition(|w| w[0] != w[1]).map_or(0, |k| k + 1);
+    let outline = &points[first..=last];
+    if outline.len() < 5 {
+        return Err(BadAirfoil("fewer than five of its points differ".to_owned()));
+    }
+    let outline = Outline::new(outline);
     let (le, te) = (outline.at(outline.leading_edge()), outline.trailing_edge());
     if te[0] <= le[0] {
         return Err(BadAirfoil("its trailing edge lies ahead of its leading edge".to_owned()));
@@ -179,18 +183,18 @@ struct Outline {
 }
 
 impl Outline {
-    fn new(points: &[[f64; 2]]) -> Result<Self, BadAirfoil> {
+    fn new(points: &[[f64; 2]]) -> Self {
         let mut s = vec![0.0];
         for w in points.windows(2) {
             let step = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
             s.push(s[s.len() - 1] + step);
         }
         let coordinate = |k: usize| points.iter().map(|p| p[k]).collect::<Vec<f64>>();
-        Ok(Self {
+        Self {
             x: Spline::new(&s, coordinate(0)),
             z: Spline::new(&s, coordinate(1)),
             s,
-        })
+        }
     }
 
     fn at(&self, s: f64) -> [f64; 2] {
@@ -239,37 +243,23 @@ impl Outline {
     }
 }
 
-/// A cubic spline with continuous second derivative, parabolic in its first and last interval.
+/// A cubic spline with continuous second derivative, broken where an abscissa comes twice, parabolic in the first
+/// and last interval of each part.
 struct Spline {
     y: Vec<f64>,
     d: Vec<f64>,
 }
 
 impl Spline {
-    /// Through `y` at strictly increasing `s`, two points or more: the first derivatives solve
-    /// `h_i d_{i-1} + 2 (h_{i-1} + h_i) d_i + h_{i-1} d_{i+1} = 3 (h_i m_{i-1} + h_{i-1} m_i)` with the secants m,
-    /// and `d_0 + d_1 = 2 m_0` at the ends (de Boor, A Practical Guide to Splines, ch. IV).
+    /// Through `y` at increasing `s`.
     fn new(s: &[f64], y: Vec<f64>) -> Self {
-        let n = s.len();
-        let h = |i: usize| s[i + 1] - s[i];
-        let m = |i: usize| (y[i + 1] - y[i]) / h(i);
-        let (mut diagonal, mut upper, mut d) = (vec![1.0; n], vec![1.0; n], vec![0.0; n]);
-        d[0] = 2.0 * m(0);
-        for i in 1..n {
-            let (lower, right);
-            if i + 1 < n {
-                (lower, diagonal[i], upper[i]) = (h(i), 2.0 * (h(i - 1) + h(i)), h(i - 1));
-                right = 3.0 * (h(i) * m(i - 1) + h(i - 1) * m(i));
-            } else {
-                (lower, right) = (1.0, 2.0 * m(i - 1));
+        let mut d = vec![0.0; s.len()];
+        let mut start = 0;
+        for k in 1..=s.len() {
+            if k == s.len() || s[k] <= s[k - 1] {
+                derivatives(&s[start..k], &y[start..k], &mut d[start..k]);
+                start = k;
             }
-            let factor = lower / diagonal[i - 1];
-            diagonal[i] -= factor * upper[i - 1];
-            d[i] = right - factor * d[i - 1];
-        }
-        d[n - 1] /= diagonal[n - 1];
-        for i in (0..n - 1).rev() {
-            d[i] = (d[i] - upper[i] * d[i + 1]) / diagonal[i];
         }
         Self { y, d }
     }
@@ -292,6 +282,40 @@ impl Spline {
 
     fn slope(&self, s: &[f64], at: f64) -> f64 {
         self.both(s, at).1
+    }
+}
+
+/// First derivatives of one part: `h_i d_{i-1} + 2 (h_{i-1} + h_i) d_i + h_{i-1} d_{i+1} = 3 (h_i m_{i-1} +
+/// h_{i-1} m_i)` with the secants m, and `d_0 + d_1 = 2 m_0` at the ends (de Boor, A Practical Guide to Splines,
+/// ch. IV).
+fn derivatives(s: &[f64], y: &[f64], d: &mut [f64]) {
+    let n = s.len();
+    if n < 2 {
+        return;
+    }
+    let h = |i: usize| s[i + 1] - s[i];
+    let m = |i: usize| (y[i + 1] - y[i]) / h(i);
+    if n == 2 {
+        d.fill(m(0));
+        return;
+    }
+    let (mut diagonal, mut upper) = (vec![1.0; n], vec![1.0; n]);
+    d[0] = 2.0 * m(0);
+    for i in 1..n {
+        let (lower, right);
+        if i + 1 < n {
+            (lower, diagonal[i], upper[i]) = (h(i), 2.0 * (h(i - 1) + h(i)), h(i - 1));
+            right = 3.0 * (h(i) * m(i - 1) + h(i - 1) * m(i));
+        } else {
+            (lower, right) = (1.0, 2.0 * m(i - 1));
+        }
+        let factor = lower / diagonal[i - 1];
+        diagonal[i] -= factor * upper[i - 1];
+        d[i] = right - factor * d[i - 1];
+    }
+    d[n - 1] /= diagonal[n - 1];
+    for i in (0..n - 1).rev() {
+        d[i] = (d[i] - upper[i] * d[i + 1]) / diagonal[i];
     }
 }
 

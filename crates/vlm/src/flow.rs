@@ -4,7 +4,7 @@ use crate::condition::Condition;
 use crate::error::Result;
 use crate::influence::{Factorised, Influence};
 use crate::lattice::{Lattice, V3};
-use crate::kernel::{CoreModel, CoreRadii};
+use crate::kernel::CoreRadii;
 use crate::method::Method;
 use crate::trefftz::Plane;
 use crate::units::{ONSETS, Unit, onset};
@@ -146,7 +146,6 @@ fn trefftz_plane(factorised: &Factorised<'_>) -> Plane {
         } else {
             (core.chord_fraction * strip.chord).max(core.width_fraction * strip.width)
         };
-        let _ = CoreModel::Leishman;
         radius * radius
     })
 }

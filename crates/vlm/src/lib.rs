@@ -90,4 +90,4 @@ pub use lattice::{Files, Lattice, LatticeStrip, LatticeSurface, NormalChange, Pa
 pub use method::Method;
 pub use output::Solution;
 pub use trefftz::Trefftz;
-pub use trim::{Target, Trim};
+pub use trim::{Target, Trim, TrimAxes};

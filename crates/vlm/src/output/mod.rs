@@ -234,6 +234,11 @@ impl Solution<'_> {
         load.force.dot(&self.solver.lift_axis(&self.flow, &normal)) / surface.area
     }
 
+    /// Drag coefficient of a surface's own area, along the strips' drag axis.
+    fn local_drag(&self, surface: &LatticeSurface, load: &Load) -> f64 {
+        load.force.dot(&self.solver.drag_axis(&self.flow)) / surface.area
+    }
+
     /// Forces of each surface: the `.fn` file.
     pub fn surface_forces(&self) -> SurfaceForces {
         let lattice = self.solver.lattice();
@@ -243,7 +248,7 @@ impl Solution<'_> {
             let (load, viscous) = self.surface_load(surface);
             let c = Coefficients::of(&load, lattice);
             let (stability, (_, moment)) = (c.stability(alpha), c.body());
-            let local = s_ref / surface.area;
+            let cdv_local = viscous / surface.area;
             let viscous = viscous / s_ref;
             SurfaceForce {
                 index: k + 1,
@@ -259,8 +264,8 @@ impl Solution<'_> {
                 c_drag_viscous: viscous,
                 average_chord: surface.average_chord,
                 cl_local: self.local_lift(surface, &load),
-                cd_local: stability.drag * local,
-                cdv_local: viscous * local,
+                cd_local: self.local_drag(surface, &load),
+                cdv_local,
                 cm_le_local: None,
             }
         };

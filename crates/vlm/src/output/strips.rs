@@ -55,7 +55,7 @@ impl Solution<'_> {
             c_drag_induced: s.drag - viscous,
             c_drag_viscous: viscous,
             cl_local: self.local_lift(surface, &load),
-            cd_local: s.drag * s_ref / surface.area,
+            cd_local: self.local_drag(surface, &load),
         }
     }
 
