@@ -16,7 +16,9 @@ pub(crate) struct BadAirfoil(pub(crate) String);
 
 impl From<albatross_numerics::Error> for BadAirfoil {
     fn from(error: albatross_numerics::Error) -> Self {
-        Self(format!("its points cannot be interpolated ({error}): order them trailing edge, upper side, leading edge, lower side"))
+        Self(format!(
+            "its points cannot be interpolated ({error}): order them trailing edge, upper side, leading edge, lower side"
+        ))
     }
 }
 
@@ -134,7 +136,10 @@ fn camber_line(points: &[[f64; 2]]) -> Result<(Vec<f64>, Vec<f64>), BadAirfoil> 
 /// An outline that has been looked over.
 fn prepared(points: &[[f64; 2]]) -> Result<Outline, BadAirfoil> {
     if points.len() < 5 {
-        return Err(BadAirfoil(format!("{} points make no outline: give five or more", points.len())));
+        return Err(BadAirfoil(format!(
+            "{} points make no outline: give five or more",
+            points.len()
+        )));
     }
     if points.iter().flatten().any(|v| !v.is_finite()) {
         return Err(BadAirfoil("a coordinate is not finite".to_owned()));
@@ -149,7 +154,9 @@ fn prepared(points: &[[f64; 2]]) -> Result<Outline, BadAirfoil> {
     let outline = Outline::new(outline);
     let (le, te) = (outline.at(outline.leading_edge()), outline.trailing_edge());
     if te[0] <= le[0] {
-        return Err(BadAirfoil("its trailing edge lies ahead of its leading edge".to_owned()));
+        return Err(BadAirfoil(
+            "its trailing edge lies ahead of its leading edge".to_owned(),
+        ));
     }
     Ok(outline)
 }
@@ -346,11 +353,14 @@ mod tests {
             }
         };
         let half = |x: f64| {
-            5.0 * t * (0.2969 * x.sqrt() - 0.1260 * x - 0.3516 * x * x + 0.2843 * x.powi(3) - 0.1036 * x.powi(4))
+            5.0 * t
+                * (0.2969 * x.sqrt() - 0.1260 * x - 0.3516 * x * x + 0.2843 * x.powi(3) - 0.1036 * x.powi(4))
         };
         let x = |k: usize| 0.5 * (1.0 - (std::f64::consts::PI * k as f64 / n as f64).cos());
         let upper = (0..=n).rev().map(|k| [x(k), camber(x(k)) + half(x(k))]);
-        upper.chain((1..=n).map(|k| [x(k), camber(x(k)) - half(x(k))])).collect()
+        upper
+            .chain((1..=n).map(|k| [x(k), camber(x(k)) - half(x(k))]))
+            .collect()
     }
 
     #[test]
@@ -359,7 +369,12 @@ mod tests {
         let found = CamberSlope::from_points(&outline(0.02, 0.4, 0.12, 80), None).unwrap();
         // The mean line's curvature jumps at 40 % chord, which splines round off.
         for x in [0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 0.97] {
-            assert!((exact.at(x) - found.at(x)).abs() < 4e-5, "{x}: {} {}", exact.at(x), found.at(x));
+            assert!(
+                (exact.at(x) - found.at(x)).abs() < 4e-5,
+                "{x}: {} {}",
+                exact.at(x),
+                found.at(x)
+            );
         }
         assert!((exact.at(0.2) - 2.0 * 0.02 / 0.16 * 0.2).abs() < 1e-12);
     }

@@ -61,13 +61,16 @@ impl LatticeBody {
                     outline_stations(&outline).map_err(|e| refuse(e.0))?
                 }
                 None => {
-                    remarks.push(format!("body \"{name}\": there is no file {path}: the body is left out"));
+                    remarks.push(format!(
+                        "body \"{name}\": there is no file {path}: the body is left out"
+                    ));
                     return Ok(None);
                 }
             },
             None if body.sections.len() >= 2 => {
                 let rows = body.sections.iter();
-                rows.map(|s| (s.centre, (s.radius_y * s.radius_z).abs().sqrt())).collect()
+                rows.map(|s| (s.centre, (s.radius_y * s.radius_z).abs().sqrt()))
+                    .collect()
             }
             None => return Err(refuse("it has neither BFILE nor two BSECTIONs".to_owned())),
         };
@@ -95,7 +98,11 @@ impl LatticeBody {
     pub(crate) fn mirrored(&self, y_plane: f64) -> Self {
         Self {
             name: format!("{} (YDUP)", self.name),
-            nodes: self.nodes.iter().map(|p| V3::new(p.x, 2.0 * y_plane - p.y, p.z)).collect(),
+            nodes: self
+                .nodes
+                .iter()
+                .map(|p| V3::new(p.x, 2.0 * y_plane - p.y, p.z))
+                .collect(),
             radii: self.radii.clone(),
         }
     }
@@ -134,7 +141,11 @@ impl LatticeBody {
             (1.0, *point, V3::new(1.0, 1.0, 1.0)),
             (sy, V3::new(point.x, -point.y, point.z), V3::new(1.0, -1.0, 1.0)),
             (sz, V3::new(point.x, point.y, z_image), V3::new(1.0, 1.0, -1.0)),
-            (sy * sz, V3::new(point.x, -point.y, z_image), V3::new(1.0, -1.0, -1.0)),
+            (
+                sy * sz,
+                V3::new(point.x, -point.y, z_image),
+                V3::new(1.0, -1.0, -1.0),
+            ),
         ];
         let mut total = V3::zeros();
         for (sign, at, turn) in places {
@@ -157,7 +168,10 @@ impl Segment {
         let axis = along.normalize();
         let u_s = flow.dot(&axis);
         let u_n = flow - axis * u_s;
-        (u_s * self.area_change, u_n * (2.0 * self.mean_area * along.norm()))
+        (
+            u_s * self.area_change,
+            u_n * (2.0 * self.mean_area * along.norm()),
+        )
     }
 
     fn stretched(&self, beta: f64) -> V3 {
@@ -187,7 +201,10 @@ impl Segment {
         let to = |end: &V3| V3::new((point.x - end.x) / beta, point.y - end.y, point.z - end.z);
         let (r1, r2) = (to(&self.ends[0]), to(&self.ends[1]));
         let core = self.core * self.core;
-        let (d1, d2) = ((r1.norm_squared() + core).sqrt(), (r2.norm_squared() + core).sqrt());
+        let (d1, d2) = (
+            (r1.norm_squared() + core).sqrt(),
+            (r2.norm_squared() + core).sqrt(),
+        );
         let (e1, e2) = (r1 / d1, r2 / d2);
         let sum = d1 + d2;
         let bottom = sum * sum - self.stretched(beta).norm_squared();
@@ -221,6 +238,9 @@ mod tests {
         };
         let side = segment.velocity(1.0, &V3::z(), &V3::new(0.0, 1.0, 0.0));
         let top = segment.velocity(1.0, &V3::z(), &V3::new(0.0, 0.0, 1.0));
-        assert!((side.z - 1.0).abs() < 1e-5 && (top.z + 1.0).abs() < 1e-5, "{side} {top}");
+        assert!(
+            (side.z - 1.0).abs() < 1e-5 && (top.z + 1.0).abs() < 1e-5,
+            "{side} {top}"
+        );
     }
 }

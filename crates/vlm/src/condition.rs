@@ -49,12 +49,24 @@ impl Condition {
     /// Checks lengths and finiteness.
     pub(crate) fn check(&self, lattice: &Lattice) -> Result<()> {
         let lists = [
-            ("control variables of the flight condition", self.controls.len(), lattice.controls.len()),
-            ("design variables of the flight condition", self.designs.len(), lattice.designs.len()),
+            (
+                "control variables of the flight condition",
+                self.controls.len(),
+                lattice.controls.len(),
+            ),
+            (
+                "design variables of the flight condition",
+                self.designs.len(),
+                lattice.designs.len(),
+            ),
         ];
         for (what, found, expected) in lists {
             if found != expected {
-                return Err(Error::Length { what, found, expected });
+                return Err(Error::Length {
+                    what,
+                    found,
+                    expected,
+                });
             }
         }
         let numbers = [self.alpha_rad, self.beta_rad, self.pb_2v, self.qc_2v, self.rb_2v];

@@ -5,7 +5,9 @@
 #[non_exhaustive]
 pub enum Error {
     /// The geometry has no surface to solve for.
-    #[error("the geometry \"{title}\" has no surface with strips: give at least one SURFACE with two SECTIONs")]
+    #[error(
+        "the geometry \"{title}\" has no surface with strips: give at least one SURFACE with two SECTIONs"
+    )]
     NoSurfaces {
         /// Title of the geometry.
         title: String,
@@ -117,7 +119,9 @@ pub enum Error {
         residual: f64,
     },
     /// The trim left the range of angles.
-    #[error("trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached")]
+    #[error(
+        "trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached"
+    )]
     TrimOutOfRange {
         /// Angle of attack or sideslip.
         variable: &'static str,

@@ -3,8 +3,8 @@
 use crate::condition::Condition;
 use crate::error::Result;
 use crate::influence::{Factorised, Influence};
-use crate::lattice::{Lattice, V3};
 use crate::kernel::CoreRadii;
+use crate::lattice::{Lattice, V3};
 use crate::method::Method;
 use crate::trefftz::Plane;
 use crate::units::{ONSETS, Unit, onset};
@@ -43,7 +43,9 @@ impl<'l> Solver<'l> {
     /// # Errors
     /// As [`Influence::assemble`] and [`Influence::factorise`].
     pub fn new(lattice: &'l Lattice, method: &Method, mach: f64) -> Result<Self> {
-        Ok(Self::from_factorised(Influence::assemble(lattice, method, mach)?.factorise()?))
+        Ok(Self::from_factorised(
+            Influence::assemble(lattice, method, mach)?.factorise()?,
+        ))
     }
 
     /// Finds the unit solutions of factorised systems.
@@ -107,8 +109,16 @@ impl<'l> Solver<'l> {
                 changes[ONSETS + k].add(wind[u], unit);
             }
             let change = &changes[u];
-            total.circulation.iter_mut().zip(&change.circulation).for_each(|(t, c)| *t += wind[u] * c);
-            total.induced.iter_mut().zip(&change.induced).for_each(|(t, c)| *t += c * wind[u]);
+            total
+                .circulation
+                .iter_mut()
+                .zip(&change.circulation)
+                .for_each(|(t, c)| *t += wind[u] * c);
+            total
+                .induced
+                .iter_mut()
+                .zip(&change.induced)
+                .for_each(|(t, c)| *t += c * wind[u]);
         }
         Ok(Flow {
             condition: condition.clone(),
@@ -122,8 +132,14 @@ impl<'l> Solver<'l> {
 impl Change {
     fn add(&mut self, factor: f64, unit: &Unit) {
         if factor != 0.0 {
-            self.circulation.iter_mut().zip(&unit.circulation).for_each(|(t, c)| *t += factor * c);
-            self.induced.iter_mut().zip(&unit.velocity).for_each(|(t, c)| *t += c * factor);
+            self.circulation
+                .iter_mut()
+                .zip(&unit.circulation)
+                .for_each(|(t, c)| *t += factor * c);
+            self.induced
+                .iter_mut()
+                .zip(&unit.velocity)
+                .for_each(|(t, c)| *t += c * factor);
         }
     }
 }

@@ -52,12 +52,12 @@ pub(crate) struct StripLoad {
 pub(crate) struct Loads {
     pub(crate) strips: Vec<StripLoad>,
     pub(crate) bodies: Vec<Load>,
-    /// Sum, moment about the reference point, and its derivatives.
+    /// Sum without the header's profile drag, moment about the reference point, and its derivatives.
     pub(crate) total: Load,
     pub(crate) changes: Vec<Load>,
     /// Force on each bound leg.
     pub(crate) vortices: Vec<V3>,
-    /// Profile drag in the total.
+    /// Profile drag of the strips' polars in the total.
     pub(crate) viscous: f64,
 }
 
@@ -245,18 +245,6 @@ impl Solver<'_> {
             double(&mut total);
             changes.iter_mut().for_each(double);
             viscous *= 2.0;
-        }
-        // Profile drag of the header acts along the wind at the reference point.
-        let drag = lattice.cd_p * r.s_ref;
-        // It has no side component, as in AVL: CYb is that of the lattice.
-        let v = flow.condition.wind();
-        let speed = v.norm();
-        let in_plane = |f: V3| V3::new(f.x, 0.0, f.z);
-        total.force += in_plane(v * (speed * drag));
-        viscous += drag;
-        for (axis, to) in changes.iter_mut().enumerate().take(3) {
-            let unit = V3::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 });
-            to.force += in_plane(unit * speed + v * (v[axis] / speed)) * drag;
         }
         Loads {
             strips,

@@ -80,9 +80,17 @@ impl<'l> Influence<'l> {
         let components = components(lattice);
         let horseshoes = Horseshoes::new(lattice, mach, &method.core, &components);
         let n = horseshoes.len();
-        let pairing = if symmetry { Pairing::find(lattice, &components) } else { None };
+        let pairing = if symmetry {
+            Pairing::find(lattice, &components)
+        } else {
+            None
+        };
         let unknowns = match pairing {
-            Some(pairing) => pairing.unknowns().into_iter().filter(|u| !u.members.is_empty()).collect(),
+            Some(pairing) => pairing
+                .unknowns()
+                .into_iter()
+                .filter(|u| !u.members.is_empty())
+                .collect(),
             None => vec![Unknowns::whole(n)],
         };
         let systems = unknowns
@@ -208,7 +216,15 @@ fn rows(
             }
             let own = unknowns.members[start + column].0;
             if own != last {
-                boundary_condition(lattice, horseshoes, components[own], own, &mut velocities, &mut scratch, &mut row);
+                boundary_condition(
+                    lattice,
+                    horseshoes,
+                    components[own],
+                    own,
+                    &mut velocities,
+                    &mut scratch,
+                    &mut row,
+                );
                 last = own;
             }
             if let Ok(to) = a.rb_mut().col_mut(column).try_as_col_major_mut().ok_or(()) {
@@ -258,7 +274,9 @@ fn components(lattice: &Lattice) -> Vec<usize> {
         })
     };
     let vortices = lattice.vortices.iter();
-    vortices.map(|v| number(lattice.surface_of(v).component, &mut known)).collect()
+    vortices
+        .map(|v| number(lattice.surface_of(v).component, &mut known))
+        .collect()
 }
 
 impl Factors {

@@ -99,7 +99,11 @@ impl Horseshoes {
         let beta = (1.0 - mach * mach).sqrt();
         let coordinate = |end: usize, axis: usize| {
             let scale = if axis == 0 { 1.0 / beta } else { 1.0 };
-            lattice.vortices.iter().map(|v| v.ends[end][axis] * scale).collect()
+            lattice
+                .vortices
+                .iter()
+                .map(|v| v.ends[end][axis] * scale)
+                .collect()
         };
         let ends = [0, 1].map(|end| [0, 1, 2].map(|axis| coordinate(end, axis)));
         let power = match radii.model {
@@ -187,7 +191,11 @@ impl Horseshoes {
 
 /// out += signs * other, component by component.
 fn add(out: &mut Velocities, other: &Velocities, signs: [f64; 3]) {
-    let pairs = [(&mut out.u, &other.u), (&mut out.v, &other.v), (&mut out.w, &other.w)];
+    let pairs = [
+        (&mut out.u, &other.u),
+        (&mut out.v, &other.v),
+        (&mut out.w, &other.w),
+    ];
     for ((to, from), sign) in pairs.into_iter().zip(signs) {
         for (t, f) in to.iter_mut().zip(from) {
             *t += sign * f;

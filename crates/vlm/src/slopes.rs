@@ -54,7 +54,10 @@ impl Solver<'_> {
         let lattice = self.lattice();
         let Some(own) = lattice.strips.get(strip) else {
             return Err(Error::Value {
-                what: format!("strip index {strip} (from 0), with {} strips in the lattice,", lattice.strips.len()),
+                what: format!(
+                    "strip index {strip} (from 0), with {} strips in the lattice,",
+                    lattice.strips.len()
+                ),
                 value: strip as f64,
                 expected: "name a strip of the lattice",
             });
@@ -63,8 +66,9 @@ impl Solver<'_> {
         let mut rhs = vec![0.0; lattice.vortices.len()];
         for k in own.vortices.clone() {
             if !sums_to_zero(lattice, k) {
-                let passing: V3 =
-                    (0..ONSETS).map(|u| self.factorised().onset_at_control(u, k) * wind[u]).sum();
+                let passing: V3 = (0..ONSETS)
+                    .map(|u| self.factorised().onset_at_control(u, k) * wind[u])
+                    .sum();
                 rhs[k] = -lattice.vortices[k].normal_incidence.dot(&passing);
             }
         }

@@ -129,12 +129,17 @@ mod tests {
         let s = chord_stations(1, 1.0, 1.0)[0];
         assert!((s.x_vortex - 0.25).abs() < 1e-15 && (s.x_control - 0.75).abs() < 1e-15);
         let s = chord_stations(4, 0.0, 1.0)[1];
-        assert_eq!((s.x_front, s.x_rear, s.x_vortex, s.x_control), (0.25, 0.5, 0.3125, 0.4375));
+        assert_eq!(
+            (s.x_front, s.x_rear, s.x_vortex, s.x_control),
+            (0.25, 0.5, 0.3125, 0.4375)
+        );
     }
 
     #[test]
     fn val_blends_end_at_one_and_increase() {
-        for parameter in [-3.0, -2.5, -2.0, -1.3, -1.0, 0.0, 0.4, 1.0, 1.7, 2.0, 2.2, 3.0, 5.0] {
+        for parameter in [
+            -3.0, -2.5, -2.0, -1.3, -1.0, 0.0, 0.4, 1.0, 1.7, 2.0, 2.2, 3.0, 5.0,
+        ] {
             let p = points(9, parameter);
             assert_eq!((p[0], p[8]), (0.0, 1.0));
             assert!(p.windows(2).all(|w| w[1] > w[0]), "{parameter}: {p:?}");
@@ -148,7 +153,12 @@ mod tests {
         let mut centres: Vec<f64> = edges.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
         assert!(snap_to_sections(&mut edges, &mut centres, &[0.0, 0.33, 1.0]).is_some());
         assert!((edges[3] - 0.33).abs() < 1e-15 && edges[10] == 1.0);
-        assert!(edges.windows(2).zip(&centres).all(|(w, c)| w[0] < *c && *c < w[1]));
+        assert!(
+            edges
+                .windows(2)
+                .zip(&centres)
+                .all(|(w, c)| w[0] < *c && *c < w[1])
+        );
         assert!(snap_to_sections(&mut [0.0, 1.0], &mut [0.5], &[0.0, 0.4, 1.0]).is_none());
     }
 }

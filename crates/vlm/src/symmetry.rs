@@ -163,7 +163,10 @@ impl Pairing {
             if taken[image] {
                 return None;
             }
-            for (a, b) in [(components[own], components[image]), (components[image], components[own])] {
+            for (a, b) in [
+                (components[own], components[image]),
+                (components[image], components[own]),
+            ] {
                 if *partner.entry(a).or_insert(b) != b {
                     return None;
                 }
@@ -175,10 +178,7 @@ impl Pairing {
                 pairs.push(Pair { own, image, sign });
             }
         }
-        Some(Self {
-            pairs,
-            middle,
-        })
+        Some(Self { pairs, middle })
     }
 
     /// Unknowns of the symmetric and of the antisymmetric part.

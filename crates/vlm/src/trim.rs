@@ -84,7 +84,12 @@ impl Trim {
     pub fn of_run_case(lattice: &Lattice, case: &RunCase) -> Result<Self> {
         let mut trim = Self::new(lattice);
         for constraint in &case.constraints {
-            trim.set(lattice, &constraint.variable, constraint.target.clone(), constraint.value)?;
+            trim.set(
+                lattice,
+                &constraint.variable,
+                constraint.target.clone(),
+                constraint.value,
+            )?;
         }
         Ok(trim)
     }
@@ -93,7 +98,13 @@ impl Trim {
     ///
     /// # Errors
     /// [`Error::UnknownControl`].
-    pub fn set(&mut self, lattice: &Lattice, variable: &RunVariable, kind: RunTarget, value: f64) -> Result<()> {
+    pub fn set(
+        &mut self,
+        lattice: &Lattice,
+        variable: &RunVariable,
+        kind: RunTarget,
+        value: f64,
+    ) -> Result<()> {
         let index = match variable {
             RunVariable::Alpha => 0,
             RunVariable::Beta => 1,
@@ -127,13 +138,17 @@ fn condition(x: &[f64], trim: &Trim) -> Condition {
     }
 }
 
-/// What the targets measure: lift, side force and moments.
+/// What the targets measure, lift, side force and moments, of a derivative.
 fn measured(table: &Table, change: &Coefficients, axes: TrimAxes) -> Stability {
-    let stability = table.resolved(change);
+    in_axes(table.resolved(change), change, axes)
+}
+
+/// With the moments of body axes where the trim is in these.
+fn in_axes(stability: Stability, own: &Coefficients, axes: TrimAxes) -> Stability {
     match axes {
         TrimAxes::Stability => stability,
         TrimAxes::Body => Stability {
-            moment: change.body().1,
+            moment: own.body().1,
             ..stability
         },
     }
@@ -147,7 +162,13 @@ fn derivative(table: &Table, k: usize, axes: TrimAxes) -> Stability {
             moment: table.alpha_body_rates().body().1,
             ..table.stability_alpha_body_rates()
         },
-        (1, _) => measured(table, &table.beta(), axes),
+        (1, _) => {
+            let own = measured(table, &table.beta(), axes);
+            Stability {
+                side: own.side + table.profile_side_force_beta(),
+                ..own
+            }
+        }
         (2..=4, TrimAxes::Stability) => table.stability_rate(k - 2),
         (2..=4, TrimAxes::Body) => measured(table, &table.body_rate(k - 2), axes),
         _ => measured(table, &table.setting(k.saturating_sub(5)), axes),
@@ -206,7 +227,7 @@ impl Measure {
         for (k, to) in row.iter_mut().enumerate() {
             *to = pick(&derivative(table, k, axes));
         }
-        pick(&measured(table, &table.value, axes))
+        pick(&in_axes(table.stability(), &table.total(), axes))
     }
 }
 
@@ -218,7 +239,12 @@ fn target_name(kind: &RunTarget) -> String {
 /// Names of the variables.
 fn variable_name(lattice: &Lattice, k: usize) -> String {
     ["alpha", "beta", "pb/2V", "qc/2V", "rb/2V"].get(k).map_or_else(
-        || lattice.controls.get(k - 5).map_or_else(String::new, |c| c.name.clone()),
+        || {
+            lattice
+                .controls
+                .get(k - 5)
+                .map_or_else(String::new, |c| c.name.clone())
+        },
         |n| (*n).to_owned(),
     )
 }
@@ -239,8 +265,11 @@ impl Solver<'_> {
                 expected: n,
             });
         }
-        let measures: Vec<Measure> =
-            trim.targets.iter().map(|t| Measure::of(lattice, &t.kind)).collect::<Result<_>>()?;
+        let measures: Vec<Measure> = trim
+            .targets
+            .iter()
+            .map(|t| Measure::of(lattice, &t.kind))
+            .collect::<Result<_>>()?;
         for (k, measure) in measures.iter().enumerate() {
             if let Some(first) = measures[..k].iter().position(|m| m == measure) {
                 return Err(Error::TargetTwice {
@@ -250,7 +279,11 @@ impl Solver<'_> {
                 });
             }
         }
-        let goals: Vec<f64> = measures.iter().zip(&trim.targets).map(|(m, t)| m.goal(t.value)).collect();
+        let goals: Vec<f64> = measures
+            .iter()
+            .zip(&trim.targets)
+            .map(|(m, t)| m.goal(t.value))
+            .collect();
         // Variables that are given directly start at their value.
         let mut x = vec![0.0; n];
         for (measure, goal) in measures.iter().zip(&goals) {
@@ -279,7 +312,10 @@ impl Solver<'_> {
                 return Ok(solution);
             }
             let step = solve::solve_vec(jacobian.as_ref(), &residual).map_err(|_| Error::TrimSingular {
-                target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+                target: trim
+                    .targets
+                    .get(worst.0)
+                    .map_or_else(String::new, |t| target_name(&t.kind)),
                 iteration,
             })?;
             x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
@@ -296,7 +332,10 @@ impl Solver<'_> {
         }
         Err(Error::TrimNotConverged {
             iterations: ITERATIONS,
-            target: trim.targets.get(worst.0).map_or_else(String::new, |t| target_name(&t.kind)),
+            target: trim
+                .targets
+                .get(worst.0)
+                .map_or_else(String::new, |t| target_name(&t.kind)),
             residual: worst.1,
         })
     }

@@ -49,7 +49,9 @@ impl Factorised<'_> {
         let flat: Vec<Vec<f64>> = rhs.into_iter().flatten().collect();
         let mut units = self.solve_columns(&flat).into_iter();
         let width = 1 + self.lattice.controls.len() + self.lattice.designs.len();
-        (0..ONSETS).map(|_| units.by_ref().take(width).collect()).collect()
+        (0..ONSETS)
+            .map(|_| units.by_ref().take(width).collect())
+            .collect()
     }
 
     /// Velocity that passes the control points in each unit onset.
@@ -146,7 +148,9 @@ impl Factorised<'_> {
         let results: Vec<(usize, usize, Part, V3, Option<usize>)> = std::thread::scope(|scope| {
             let mut jobs = targets.chunks(chunk);
             let own = jobs.next().unwrap_or(&[]);
-            let handles: Vec<_> = jobs.map(|job| scope.spawn(move || self.velocities(parts, job))).collect();
+            let handles: Vec<_> = jobs
+                .map(|job| scope.spawn(move || self.velocities(parts, job)))
+                .collect();
             let mut out = self.velocities(parts, own);
             for handle in handles {
                 out.extend(handle.join().unwrap_or_default());
@@ -168,8 +172,14 @@ impl Factorised<'_> {
     ) -> Vec<(usize, usize, Part, V3, Option<usize>)> {
         let n = self.horseshoes.len();
         let (mut row, mut scratch) = (Velocities::new(n), Velocities::new(n));
-        let mut folded: Vec<Mat<f64>> = parts.iter().map(|(_, s)| Mat::zeros(s.nrows(), 3 * BLOCK)).collect();
-        let mut products: Vec<Mat<f64>> = parts.iter().map(|(_, s)| Mat::zeros(3 * BLOCK, s.ncols())).collect();
+        let mut folded: Vec<Mat<f64>> = parts
+            .iter()
+            .map(|(_, s)| Mat::zeros(s.nrows(), 3 * BLOCK))
+            .collect();
+        let mut products: Vec<Mat<f64>> = parts
+            .iter()
+            .map(|(_, s)| Mat::zeros(3 * BLOCK, s.ncols()))
+            .collect();
         let mut out = Vec::new();
         for block in targets.chunks(BLOCK) {
             for (t, &(own, _)) in block.iter().enumerate() {
@@ -192,7 +202,14 @@ impl Factorised<'_> {
                 self.systems.iter().zip(parts).zip(&folded).zip(&mut products)
             {
                 let rows = from.as_ref().transpose();
-                matmul(product.as_mut(), Accum::Replace, rows, solution.as_ref(), 1.0, Par::Seq);
+                matmul(
+                    product.as_mut(),
+                    Accum::Replace,
+                    rows,
+                    solution.as_ref(),
+                    1.0,
+                    Par::Seq,
+                );
                 for (j, &index) in active.iter().enumerate() {
                     for (t, &(own, image)) in block.iter().enumerate() {
                         let v = V3::from_fn(|axis, _| product[(3 * t + axis, j)]);

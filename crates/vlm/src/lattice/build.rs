@@ -61,9 +61,7 @@ impl Lattice {
             }
         }
         if lattice.vortices.is_empty() {
-            return Err(Error::NoSurfaces {
-                title: lattice.title,
-            });
+            return Err(Error::NoSurfaces { title: lattice.title });
         }
         for body in &geometry.bodies {
             if let Some(own) = LatticeBody::new(body, files, &mut remarks)? {
@@ -233,9 +231,17 @@ impl Lattice {
             .map(|c| (true, c))
             .chain(self.designs.iter_mut().map(|c| (false, c)))
         {
-            let sign = if is_control { image_sign(surface, &change.name) } else { 1.0 };
-            let own_panels: Vec<PanelChange> =
-                change.panels.iter().filter(|p| p.vortex >= first_vortex).copied().collect();
+            let sign = if is_control {
+                image_sign(surface, &change.name)
+            } else {
+                1.0
+            };
+            let own_panels: Vec<PanelChange> = change
+                .panels
+                .iter()
+                .filter(|p| p.vortex >= first_vortex)
+                .copied()
+                .collect();
             change.panels.extend(own_panels.iter().map(|p| PanelChange {
                 vortex: p.vortex + vortex_shift,
                 normal: vector(&p.normal) * sign,
@@ -311,11 +317,17 @@ fn ribs<'g>(surface: &'g Surface, files: &Files<'_>, remarks: &mut Vec<String>) 
     if surface.sections.len() < 2 {
         return Err(refuse(
             surface.sections.len(),
-            format!("the surface has {} sections: give two or more", surface.sections.len()),
+            format!(
+                "the surface has {} sections: give two or more",
+                surface.sections.len()
+            ),
         ));
     }
     if surface.n_chord == 0 {
-        return Err(refuse(1, "the surface has no chordwise vortices: give Nchord of 1 or more".to_owned()));
+        return Err(refuse(
+            1,
+            "the surface has no chordwise vortices: give Nchord of 1 or more".to_owned(),
+        ));
     }
     let mut out = Vec::new();
     for (k, section) in surface.sections.iter().enumerate() {
@@ -323,7 +335,10 @@ fn ribs<'g>(surface: &'g Surface, files: &Files<'_>, remarks: &mut Vec<String>) 
         let place = [section.x_le, section.y_le, section.z_le];
         let leading_edge = V3::from_fn(|i, _| place[i] * surface.scale[i] + surface.translate[i]);
         if !(chord > 0.0 && chord.is_finite() && leading_edge.iter().all(|v| v.is_finite())) {
-            return Err(refuse(k + 1, format!("its chord is {chord}: give a positive one")));
+            return Err(refuse(
+                k + 1,
+                format!("its chord is {chord}: give a positive one"),
+            ));
         }
         let camber = camber(&section.airfoil, files, |what| {
             remarks.push(format!("surface \"{name}\", section {}: {what}", k + 1));
@@ -356,7 +371,9 @@ fn camber(
         Airfoil::File { path, .. } => {
             let text = files(path);
             if text.is_none() {
-                remark(format!("there is no aerofoil file {path}: taken as a flat plate, as AVL does"));
+                remark(format!(
+                    "there is no aerofoil file {path}: taken as a flat plate, as AVL does"
+                ));
             }
             (path.clone(), text)
         }

@@ -32,7 +32,10 @@ pub(super) fn intervals(surface: &Surface, leading_edges: &[V3]) -> Result<Vec<I
         if !(step > 0.0 && step.is_finite()) {
             return Err(refuse(
                 k,
-                format!("its distance in y and z to section {} is {step}: move one of them apart", k + 2),
+                format!(
+                    "its distance in y and z to section {} is {step}: move one of them apart",
+                    k + 2
+                ),
             ));
         }
         arc.push(arc[k] + step);
@@ -65,7 +68,8 @@ pub(super) fn intervals(surface: &Surface, leading_edges: &[V3]) -> Result<Vec<I
                 let spacing = section.spanwise.filter(|s| s.count > 0).ok_or_else(|| {
                     refuse(
                         k,
-                        "it has no Nspan and Sspace, and neither has the surface: give them at either".to_owned(),
+                        "it has no Nspan and Sspace, and neither has the surface: give them at either"
+                            .to_owned(),
                     )
                 })?;
                 let f = points(2 * spacing.count + 1, spacing.distribution);

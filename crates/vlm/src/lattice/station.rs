@@ -67,7 +67,10 @@ impl<'r, 'g> Bay<'r, 'g> {
         }
         let ([sl, cl], [sr, cr]) = (self.left.sin_cos(), self.right.sin_cos());
         let (s, c) = (self.weighted(f, sl, sr), self.weighted(f, cl, cr));
-        let (ds, dc) = (self.weighted(f, wl * cl, wr * cr), self.weighted(f, -wl * sl, -wr * sr));
+        let (ds, dc) = (
+            self.weighted(f, wl * cl, wr * cr),
+            self.weighted(f, -wl * sl, -wr * sr),
+        );
         (c * ds - s * dc) / (s * s + c * c)
     }
 
@@ -123,7 +126,11 @@ impl Rib<'_> {
 
 /// Part of an element from `front` to `rear` (x/c) that a control with this hinge moves.
 pub(super) fn moved_fraction(x_hinge: f64, front: f64, rear: f64) -> f64 {
-    let (from, to) = if x_hinge >= 0.0 { (x_hinge, 1.0) } else { (0.0, -x_hinge) };
+    let (from, to) = if x_hinge >= 0.0 {
+        (x_hinge, 1.0)
+    } else {
+        (0.0, -x_hinge)
+    };
     let within = |x: f64| ((x - front) / (rear - front)).clamp(0.0, 1.0);
     within(to) - within(from)
 }

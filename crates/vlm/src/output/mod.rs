@@ -3,8 +3,8 @@
 mod strips;
 
 use albatross_avl::results::{
-    AxisOrientation, BodyColumn, BodyDerivatives, BodyForce, BodyForces, HingeMoment, HingeMoments, NamedColumn,
-    NamedValue, RunState, StabilityColumn, StabilityDerivatives, SurfaceForce, SurfaceForces,
+    AxisOrientation, BodyColumn, BodyDerivatives, BodyForce, BodyForces, HingeMoment, HingeMoments,
+    NamedColumn, NamedValue, RunState, StabilityColumn, StabilityDerivatives, SurfaceForce, SurfaceForces,
 };
 
 use crate::coefficients::{Coefficients, Stability, Table};
@@ -78,7 +78,7 @@ impl Solution<'_> {
 
     /// Pitching moment coefficient `Cmtot`.
     pub fn c_m(&self) -> f64 {
-        self.table.value.moment.y
+        self.table.total().moment.y
     }
 
     /// Flight condition and totals: the `.ft` file.
@@ -86,9 +86,9 @@ impl Solution<'_> {
         let lattice = self.solver.lattice();
         let c = &self.flow.condition;
         let (s, k) = c.alpha_rad.sin_cos();
-        let (force, moment) = self.table.value.body();
+        let (force, moment) = self.table.total().body();
         let stability = self.table.stability();
-        let viscous = self.loads.viscous / lattice.reference.s_ref;
+        let viscous = self.loads.viscous / lattice.reference.s_ref + lattice.cd_p;
         let named = |changes: &[NormalChange], values: &[f64]| {
             let pairs = changes.iter().zip(values);
             pairs
@@ -135,7 +135,8 @@ impl Solution<'_> {
         }
     }
 
-    /// Derivatives in stability axes: the `.st` file.
+    /// Derivatives in stability axes: the `.st` file. As in AVL, `CYb` leaves out the side force of the header's
+    /// profile drag, which [`Self::body_derivatives`] holds.
     pub fn stability_derivatives(&self, run_case: &str) -> StabilityDerivatives {
         let lattice = self.solver.lattice();
         let table = &self.table;
@@ -230,7 +231,11 @@ impl Solution<'_> {
         let strips = &self.solver.lattice().strips[surface.strips.clone()];
         let mean: V3 = strips.iter().map(|s| s.normal * s.area()).sum();
         let length = mean.norm();
-        let normal = if length > CLOSED * surface.area { mean / length } else { V3::z() };
+        let normal = if length > CLOSED * surface.area {
+            mean / length
+        } else {
+            V3::z()
+        };
         load.force.dot(&self.solver.lift_axis(&self.flow, &normal)) / surface.area
     }
 
@@ -332,7 +337,12 @@ impl Solution<'_> {
             axes: None,
             s_ref: r.s_ref,
             c_ref: r.c_ref,
-            controls: lattice.controls.iter().zip(&self.flow.condition.controls).map(one).collect(),
+            controls: lattice
+                .controls
+                .iter()
+                .zip(&self.flow.condition.controls)
+                .map(one)
+                .collect(),
         }
     }
 }

@@ -108,7 +108,11 @@ impl Solution<'_> {
         let middle = (strip.edges[0] + strip.edges[1]) * 0.5;
         let load = self.loads.strips[k].load.moved(&(strip.quarter_chord() - middle));
         let edge: V3 = strip.edges[1] - strip.edges[0];
-        let sign = if self.solver.lattice().surfaces[strip.surface].is_image { -1.0 } else { 1.0 };
+        let sign = if self.solver.lattice().surfaces[strip.surface].is_image {
+            -1.0
+        } else {
+            1.0
+        };
         sign * load.moment.dot(&edge.normalize()) / (strip.area() * strip.chord)
     }
 
