@@ -144,10 +144,14 @@ fn prepared(points: &[[f64; 2]]) -> Result<Outline, BadAirfoil> {
     if points.iter().flatten().any(|v| !v.is_finite()) {
         return Err(BadAirfoil("a coordinate is not finite".to_owned()));
     }
-    // Points that repeat their neighbour have no arc length.
-    let mut outline: Vec<[f64; 2]> = points.to_vec();
-    outline.dedup();
-    let outline = Outline::new(&outline)?;
+    // A point that is given twice is a corner. At the ends it would be a side of no length.
+    let first = points.windows(2).position(|w| w[0] != w[1]).unwrap_or(0);
+    let last = points.windows(2).rposition(|w| w[0] != w[1]).map_or(0, |k| k + 1);
+    let outline = &points[first..=last];
+    if outline.len() < 5 {
+        return Err(BadAirfoil("fewer than five of its points differ".to_owned()));
+    }
+    let outline = Outline::new(outline);
     let (le, te) = (outline.at(outline.leading_edge()), outline.trailing_edge());
     if te[0] <= le[0] {
         return Err(BadAirfoil(
@@ -181,31 +185,31 @@ fn cosine(k: usize) -> f64 {
 /// An aerofoil's outline as two splines over its arc length.
 struct Outline {
     s: Vec<f64>,
-    x: Interpolant,
-    z: Interpolant,
+    x: Spline,
+    z: Spline,
 }
 
 impl Outline {
-    fn new(points: &[[f64; 2]]) -> Result<Self, BadAirfoil> {
+    fn new(points: &[[f64; 2]]) -> Self {
         let mut s = vec![0.0];
         for w in points.windows(2) {
             let step = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
             s.push(s[s.len() - 1] + step);
         }
         let coordinate = |k: usize| points.iter().map(|p| p[k]).collect::<Vec<f64>>();
-        Ok(Self {
-            x: Interpolant::new(Method::Cubic, &s, &coordinate(0))?,
-            z: Interpolant::new(Method::Cubic, &s, &coordinate(1))?,
+        Self {
+            x: Spline::new(&s, coordinate(0)),
+            z: Spline::new(&s, coordinate(1)),
             s,
-        })
+        }
     }
 
     fn at(&self, s: f64) -> [f64; 2] {
-        [self.x.eval(s), self.z.eval(s)]
+        [self.x.at(&self.s, s), self.z.at(&self.s, s)]
     }
 
     fn trailing_edge(&self) -> [f64; 2] {
-        let (first, last) = self.x.range();
+        let (first, last) = (self.s[0], self.s[self.s.len() - 1]);
         let (a, b) = (self.at(first), self.at(last));
         [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
     }
@@ -215,7 +219,7 @@ impl Outline {
         let te = self.trailing_edge();
         let slope = |s: f64| {
             let p = self.at(s);
-            (p[0] - te[0]) * self.x.derivative(s) + (p[1] - te[1]) * self.z.derivative(s)
+            (p[0] - te[0]) * self.x.slope(&self.s, s) + (p[1] - te[1]) * self.z.slope(&self.s, s)
         };
         // The sign changes from positive (outward along the upper side) to negative.
         let nose = self
@@ -223,7 +227,7 @@ impl Outline {
             .windows(2)
             .filter(|w| slope(w[0]) > 0.0 && slope(w[1]) <= 0.0)
             .max_by(|a, b| {
-                let far = |w: &[f64]| (self.x.eval(w[0]) - te[0]).abs();
+                let far = |w: &[f64]| (self.x.at(&self.s, w[0]) - te[0]).abs();
                 far(a).total_cmp(&far(b))
             });
         let Some(nose) = nose else {
@@ -231,7 +235,7 @@ impl Outline {
                 .s
                 .iter()
                 .copied()
-                .min_by(|a, b| self.x.eval(*a).total_cmp(&self.x.eval(*b)));
+                .min_by(|a, b| self.x.at(&self.s, *a).total_cmp(&self.x.at(&self.s, *b)));
             return foremost.unwrap_or(0.0);
         };
         bisect(nose[0], nose[1], slope)
@@ -239,10 +243,86 @@ impl Outline {
 
     /// z of the upper and of the lower side at an x.
     fn sides(&self, s_le: f64, x: f64) -> (f64, f64) {
-        let (first, last) = self.x.range();
-        let upper = bisect(first, s_le, |s| self.x.eval(s) - x);
-        let lower = bisect(s_le, last, |s| x - self.x.eval(s));
-        (self.z.eval(upper), self.z.eval(lower))
+        let (first, last) = (self.s[0], self.s[self.s.len() - 1]);
+        let upper = bisect(first, s_le, |s| self.x.at(&self.s, s) - x);
+        let lower = bisect(s_le, last, |s| x - self.x.at(&self.s, s));
+        (self.z.at(&self.s, upper), self.z.at(&self.s, lower))
+    }
+}
+
+/// A cubic spline with continuous second derivative, broken where an abscissa comes twice, parabolic in the first
+/// and last interval of each part.
+struct Spline {
+    y: Vec<f64>,
+    d: Vec<f64>,
+}
+
+impl Spline {
+    /// Through `y` at increasing `s`.
+    fn new(s: &[f64], y: Vec<f64>) -> Self {
+        let mut d = vec![0.0; s.len()];
+        let mut start = 0;
+        for k in 1..=s.len() {
+            if k == s.len() || s[k] <= s[k - 1] {
+                derivatives(&s[start..k], &y[start..k], &mut d[start..k]);
+                start = k;
+            }
+        }
+        Self { y, d }
+    }
+
+    /// Value and first derivative.
+    fn both(&self, s: &[f64], at: f64) -> (f64, f64) {
+        let i = s.partition_point(|&v| v <= at).clamp(1, s.len() - 1) - 1;
+        let h = s[i + 1] - s[i];
+        let t = (at - s[i]) / h;
+        let rise = self.y[i + 1] - self.y[i];
+        let (a, b) = (h * self.d[i] - rise, rise - h * self.d[i + 1]);
+        let value = self.y[i] + t * rise + t * (1.0 - t) * (a * (1.0 - t) + b * t);
+        let slope = rise + (1.0 - 2.0 * t) * (a * (1.0 - t) + b * t) + t * (1.0 - t) * (b - a);
+        (value, slope / h)
+    }
+
+    fn at(&self, s: &[f64], at: f64) -> f64 {
+        self.both(s, at).0
+    }
+
+    fn slope(&self, s: &[f64], at: f64) -> f64 {
+        self.both(s, at).1
+    }
+}
+
+/// First derivatives of one part: `h_i d_{i-1} + 2 (h_{i-1} + h_i) d_i + h_{i-1} d_{i+1} = 3 (h_i m_{i-1} +
+/// h_{i-1} m_i)` with the secants m, and `d_0 + d_1 = 2 m_0` at the ends (de Boor, A Practical Guide to Splines,
+/// ch. IV).
+fn derivatives(s: &[f64], y: &[f64], d: &mut [f64]) {
+    let n = s.len();
+    if n < 2 {
+        return;
+    }
+    let h = |i: usize| s[i + 1] - s[i];
+    let m = |i: usize| (y[i + 1] - y[i]) / h(i);
+    if n == 2 {
+        d.fill(m(0));
+        return;
+    }
+    let (mut diagonal, mut upper) = (vec![1.0; n], vec![1.0; n]);
+    d[0] = 2.0 * m(0);
+    for i in 1..n {
+        let (lower, right);
+        if i + 1 < n {
+            (lower, diagonal[i], upper[i]) = (h(i), 2.0 * (h(i - 1) + h(i)), h(i - 1));
+            right = 3.0 * (h(i) * m(i - 1) + h(i - 1) * m(i));
+        } else {
+            (lower, right) = (1.0, 2.0 * m(i - 1));
+        }
+        let factor = lower / diagonal[i - 1];
+        diagonal[i] -= factor * upper[i - 1];
+        d[i] = right - factor * d[i - 1];
+    }
+    d[n - 1] /= diagonal[n - 1];
+    for i in (0..n - 1).rev() {
+        d[i] = (d[i] - upper[i] * d[i + 1]) / diagonal[i];
     }
 }
 

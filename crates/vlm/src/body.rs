@@ -107,11 +107,11 @@ impl LatticeBody {
         }
     }
 
-    /// Length of the axis, surface area and volume.
+    /// Length along x, surface area and volume.
     pub(crate) fn sizes(&self) -> [f64; 3] {
         let mut sizes = [0.0; 3];
         for (p, r) in self.nodes.windows(2).zip(self.radii.windows(2)) {
-            let length = (p[1] - p[0]).norm();
+            let length = (p[1].x - p[0].x).abs();
             sizes[0] += length;
             sizes[1] += PI * (r[0] + r[1]) * length.hypot(r[1] - r[0]);
             sizes[2] += PI / 3.0 * (r[0] * r[0] + r[0] * r[1] + r[1] * r[1]) * length;

@@ -26,11 +26,14 @@ pub(crate) struct Stability {
 /// All that the tables need: coefficients, and derivatives by onsets and settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
-    pub(crate) value: Coefficients,
+    /// Of surfaces and bodies, without the header's profile drag.
+    value: Coefficients,
     changes: Vec<Coefficients>,
     condition: Condition,
     rate_scale: V3,
     rotation: V3,
+    /// Profile drag of the header, along the wind.
+    cd_p: f64,
 }
 
 impl Coefficients {
@@ -111,7 +114,22 @@ impl Table {
             condition: flow.condition.clone(),
             rate_scale: rate_scale(lattice),
             rotation: flow.condition.rotation(lattice),
+            cd_p: lattice.cd_p,
         }
+    }
+
+    /// All coefficients: the header's profile drag acts along the wind at the reference point.
+    pub(crate) fn total(&self) -> Coefficients {
+        let wind = self.condition.wind();
+        Coefficients {
+            force: self.value.force + wind * (self.cd_p * wind.norm()),
+            moment: self.value.moment,
+        }
+    }
+
+    /// Derivative of the side force of the header's profile drag by sideslip, which AVL leaves out of `CYb`.
+    pub(crate) fn profile_side_force_beta(&self) -> f64 {
+        -self.cd_p * self.condition.beta_rad.cos()
     }
 
     /// Along a change of the wind and of the rotation in geometry axes.
@@ -149,15 +167,27 @@ impl Table {
     pub(crate) fn body_wind(&self, axis: usize) -> Coefficients {
         let mut wind = V3::zeros();
         wind[axis] = if axis == 1 { -1.0 } else { 1.0 };
-        self.along(&wind, &V3::zeros())
+        let now = self.condition.wind();
+        let speed = now.norm();
+        let mut change = self.along(&wind, &V3::zeros());
+        change.force += (wind * speed + now * (now.dot(&wind) / speed)) * self.cd_p;
+        change
     }
 
     pub(crate) fn setting(&self, k: usize) -> Coefficients {
         self.changes.get(ONSETS + k).copied().unwrap_or_default()
     }
 
+    /// Totals. As AVL has it, the drag of the header counts whole in `CDtot` with sideslip too, and in `CYtot` as
+    /// the wind's component.
     pub(crate) fn stability(&self) -> Stability {
-        self.value.stability(self.condition.alpha_rad)
+        let own = self.value.stability(self.condition.alpha_rad);
+        let wind = self.condition.wind();
+        Stability {
+            drag: own.drag + self.cd_p * wind.norm_squared(),
+            side: own.side + self.cd_p * wind.y * wind.norm(),
+            ..own
+        }
     }
 
     pub(crate) fn resolved(&self, change: &Coefficients) -> Stability {

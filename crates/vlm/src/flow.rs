@@ -3,7 +3,7 @@
 use crate::condition::Condition;
 use crate::error::Result;
 use crate::influence::{Factorised, Influence};
-use crate::kernel::{CoreModel, CoreRadii};
+use crate::kernel::CoreRadii;
 use crate::lattice::{Lattice, V3};
 use crate::method::Method;
 use crate::trefftz::Plane;
@@ -162,7 +162,6 @@ fn trefftz_plane(factorised: &Factorised<'_>) -> Plane {
         } else {
             (core.chord_fraction * strip.chord).max(core.width_fraction * strip.width)
         };
-        let _ = CoreModel::Leishman;
         radius * radius
     })
 }

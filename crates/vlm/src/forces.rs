@@ -52,12 +52,12 @@ pub(crate) struct StripLoad {
 pub(crate) struct Loads {
     pub(crate) strips: Vec<StripLoad>,
     pub(crate) bodies: Vec<Load>,
-    /// Sum, moment about the reference point, and its derivatives.
+    /// Sum without the header's profile drag, moment about the reference point, and its derivatives.
     pub(crate) total: Load,
     pub(crate) changes: Vec<Load>,
     /// Force on each bound leg.
     pub(crate) vortices: Vec<V3>,
-    /// Profile drag in the total.
+    /// Profile drag of the strips' polars in the total.
     pub(crate) viscous: f64,
 }
 
@@ -172,7 +172,7 @@ impl Solver<'_> {
             return 0.0;
         };
         let area = strip.area();
-        let lift = self.lift_axis(flow, strip);
+        let lift = self.lift_axis(flow, &strip.normal);
         let (cdv, slope) = drag_of_lift(polar, load.force.dot(&lift) / area);
         let (velocity, units) = onset_velocity(self.lattice(), wind, &strip.quarter_chord());
         let speed = velocity.norm();
@@ -190,12 +190,12 @@ impl Solver<'_> {
         force.dot(&flow.condition.wind()) / area
     }
 
-    /// Unit vector of a strip's lift: normal to the wind and to the strip's spanwise direction.
-    pub(crate) fn lift_axis(&self, flow: &Flow, strip: &LatticeStrip) -> V3 {
-        let span = V3::new(0.0, strip.normal.z, -strip.normal.y);
+    /// Unit vector of lift normal to the wind and to the spanwise direction of a sheet with this normal.
+    pub(crate) fn lift_axis(&self, flow: &Flow, normal: &V3) -> V3 {
+        let span = V3::new(0.0, normal.z, -normal.y);
         let lift = self.drag_axis(flow).cross(&span);
         let length = lift.norm();
-        if length > 0.0 { lift / length } else { strip.normal }
+        if length > 0.0 { lift / length } else { *normal }
     }
 
     /// Unit vector of a strip's drag.
@@ -245,16 +245,6 @@ impl Solver<'_> {
             double(&mut total);
             changes.iter_mut().for_each(double);
             viscous *= 2.0;
-        }
-        // Profile drag of the header acts along the wind at the reference point.
-        let drag = lattice.cd_p * r.s_ref;
-        let v = flow.condition.wind();
-        let speed = v.norm();
-        total.force += v * (speed * drag);
-        viscous += drag;
-        for (axis, to) in changes.iter_mut().enumerate().take(3) {
-            let unit = V3::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 });
-            to.force += (unit * speed + v * (v[axis] / speed)) * drag;
         }
         Loads {
             strips,

@@ -7,6 +7,7 @@ use albatross_avl::run::{RunCase, RunTarget, RunVariable};
 use albatross_numerics::{Mat, solve};
 use serde::{Deserialize, Serialize};
 
+use crate::coefficients::{Coefficients, Stability, Table};
 use crate::condition::{Condition, control_index};
 use crate::error::{Error, Result};
 use crate::flow::Solver;
@@ -31,6 +32,17 @@ pub struct Target {
     pub value: f64,
 }
 
+/// Axes of the roll and yaw rates and moments of a trim.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TrimAxes {
+    /// x along the wind's projection on the plane of symmetry: AVL's default.
+    #[default]
+    Stability,
+    /// x along the body.
+    Body,
+}
+
 /// One target for each variable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trim {
@@ -38,6 +50,8 @@ pub struct Trim {
     pub targets: Vec<Target>,
     /// Design variables, which stay.
     pub designs: Vec<f64>,
+    /// Axes of the roll and yaw rates and of the roll and yaw moments.
+    pub axes: TrimAxes,
 }
 
 impl Trim {
@@ -58,11 +72,12 @@ impl Trim {
                 .map(|kind| Target { kind, value: 0.0 })
                 .collect(),
             designs: vec![0.0; lattice.designs.len()],
+            axes: TrimAxes::default(),
         }
     }
 
     /// The constraints of a run case; variables that it does not name stay at zero. As AVL reads it, the values of
-    /// alpha, beta and controls are in degrees, rates in body axes.
+    /// alpha, beta and controls are in degrees, rates in stability axes.
     ///
     /// # Errors
     /// [`Error::UnknownControl`].
@@ -105,17 +120,58 @@ impl Trim {
     }
 }
 
-/// The trim's unknowns: alpha, beta in rad, rates, controls.
-fn condition(x: &[f64], designs: &[f64]) -> Condition {
+/// Flight condition of the trim's unknowns: alpha, beta in rad, rates, controls.
+fn condition(x: &[f64], trim: &Trim) -> Condition {
     let at = |k: usize| x.get(k).copied().unwrap_or(0.0);
+    let (s, c) = match trim.axes {
+        TrimAxes::Stability => at(0).sin_cos(),
+        TrimAxes::Body => (0.0, 1.0),
+    };
     Condition {
         alpha_rad: at(0),
         beta_rad: at(1),
-        pb_2v: at(2),
+        pb_2v: at(2) * c - at(4) * s,
         qc_2v: at(3),
-        rb_2v: at(4),
+        rb_2v: at(2) * s + at(4) * c,
         controls: x.iter().skip(5).copied().collect(),
-        designs: designs.to_vec(),
+        designs: trim.designs.clone(),
+    }
+}
+
+/// What the targets measure, lift, side force and moments, of a derivative.
+fn measured(table: &Table, change: &Coefficients, axes: TrimAxes) -> Stability {
+    in_axes(table.resolved(change), change, axes)
+}
+
+/// With the moments of body axes where the trim is in these.
+fn in_axes(stability: Stability, own: &Coefficients, axes: TrimAxes) -> Stability {
+    match axes {
+        TrimAxes::Stability => stability,
+        TrimAxes::Body => Stability {
+            moment: own.body().1,
+            ..stability
+        },
+    }
+}
+
+/// Derivative of what the targets measure by unknown `k`.
+fn derivative(table: &Table, k: usize, axes: TrimAxes) -> Stability {
+    match (k, axes) {
+        (0, TrimAxes::Stability) => table.stability_alpha(),
+        (0, TrimAxes::Body) => Stability {
+            moment: table.alpha_body_rates().body().1,
+            ..table.stability_alpha_body_rates()
+        },
+        (1, _) => {
+            let own = measured(table, &table.beta(), axes);
+            Stability {
+                side: own.side + table.profile_side_force_beta(),
+                ..own
+            }
+        }
+        (2..=4, TrimAxes::Stability) => table.stability_rate(k - 2),
+        (2..=4, TrimAxes::Body) => measured(table, &table.body_rate(k - 2), axes),
+        _ => measured(table, &table.setting(k.saturating_sub(5)), axes),
     }
 }
 
@@ -153,8 +209,7 @@ impl Measure {
     }
 
     /// Value and derivatives by the unknowns.
-    fn row(self, solution: &Solution<'_>, x: &[f64], row: &mut [f64]) -> f64 {
-        let table = solution.table();
+    fn row(self, solution: &Solution<'_>, x: &[f64], axes: TrimAxes, row: &mut [f64]) -> f64 {
         if let Self::Unknown(k) = self {
             row.fill(0.0);
             if let Some(own) = row.get_mut(k) {
@@ -162,29 +217,17 @@ impl Measure {
             }
             return x.get(k).copied().unwrap_or(0.0);
         }
-        let pick = |force: [f64; 2], moment: [f64; 3]| match self {
-            Self::Lift => force[0],
-            Self::Side => force[1],
-            Self::Moment(axis) => moment[axis.min(2)],
+        let pick = |s: &Stability| match self {
+            Self::Lift => s.lift,
+            Self::Side => s.side,
+            Self::Moment(axis) => s.moment[axis.min(2)],
             Self::Unknown(_) => 0.0,
         };
-        // Moments are those of body axes, lift that of stability axes.
-        let of = |c: &crate::coefficients::Coefficients| {
-            let s = table.resolved(c);
-            pick([s.lift, s.side], c.body().1.into())
-        };
+        let table = solution.table();
         for (k, to) in row.iter_mut().enumerate() {
-            *to = match k {
-                0 => {
-                    let s = table.stability_alpha_body_rates();
-                    pick([s.lift, s.side], table.alpha_body_rates().body().1.into())
-                }
-                1 => of(&table.beta()),
-                2..=4 => of(&table.body_rate(k - 2)),
-                _ => of(&table.setting(k - 5)),
-            };
+            *to = pick(&derivative(table, k, axes));
         }
-        of(&table.value)
+        pick(&in_axes(table.stability(), &table.total(), axes))
     }
 }
 
@@ -253,9 +296,9 @@ impl Solver<'_> {
         let mut residual = vec![0.0; n];
         let mut worst = (0, f64::INFINITY);
         for iteration in 0..=ITERATIONS {
-            let solution = self.solve(&condition(&x, &trim.designs))?;
+            let solution = self.solve(&condition(&x, trim))?;
             for (i, (measure, goal)) in measures.iter().zip(&goals).enumerate() {
-                residual[i] = goal - measure.row(&solution, &x, &mut row);
+                residual[i] = goal - measure.row(&solution, &x, trim.axes, &mut row);
                 for (j, value) in row.iter().enumerate() {
                     jacobian[(i, j)] = *value;
                 }

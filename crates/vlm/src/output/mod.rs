@@ -19,6 +19,9 @@ use crate::units::ONSETS;
 /// `Clb Cnr / Clr Cnb` is printed where the denominator is above this.
 const SPIRAL_LIMIT: f64 = 1e-4;
 
+/// Below this fraction of the area the normals of a surface cancel.
+const CLOSED: f64 = 1e-9;
+
 /// The flow at a flight condition with all its forces.
 pub struct Solution<'s> {
     solver: &'s Solver<'s>,
@@ -75,7 +78,7 @@ impl Solution<'_> {
 
     /// Pitching moment coefficient `Cmtot`.
     pub fn c_m(&self) -> f64 {
-        self.table.value.moment.y
+        self.table.total().moment.y
     }
 
     /// Flight condition and totals: the `.ft` file.
@@ -83,9 +86,9 @@ impl Solution<'_> {
         let lattice = self.solver.lattice();
         let c = &self.flow.condition;
         let (s, k) = c.alpha_rad.sin_cos();
-        let (force, moment) = self.table.value.body();
+        let (force, moment) = self.table.total().body();
         let stability = self.table.stability();
-        let viscous = self.loads.viscous / lattice.reference.s_ref;
+        let viscous = self.loads.viscous / lattice.reference.s_ref + lattice.cd_p;
         let named = |changes: &[NormalChange], values: &[f64]| {
             let pairs = changes.iter().zip(values);
             pairs
@@ -132,7 +135,8 @@ impl Solution<'_> {
         }
     }
 
-    /// Derivatives in stability axes: the `.st` file.
+    /// Derivatives in stability axes: the `.st` file. As in AVL, `CYb` leaves out the side force of the header's
+    /// profile drag, which [`Self::body_derivatives`] holds.
     pub fn stability_derivatives(&self, run_case: &str) -> StabilityDerivatives {
         let lattice = self.solver.lattice();
         let table = &self.table;
@@ -221,6 +225,25 @@ impl Solution<'_> {
         (sum, viscous)
     }
 
+    /// Lift coefficient of a surface's own area, normal to its mean spanwise direction. A closed ring has none: its
+    /// normals cancel, and the lift is that of the aircraft.
+    fn local_lift(&self, surface: &LatticeSurface, load: &Load) -> f64 {
+        let strips = &self.solver.lattice().strips[surface.strips.clone()];
+        let mean: V3 = strips.iter().map(|s| s.normal * s.area()).sum();
+        let length = mean.norm();
+        let normal = if length > CLOSED * surface.area {
+            mean / length
+        } else {
+            V3::z()
+        };
+        load.force.dot(&self.solver.lift_axis(&self.flow, &normal)) / surface.area
+    }
+
+    /// Drag coefficient of a surface's own area, along the strips' drag axis.
+    fn local_drag(&self, surface: &LatticeSurface, load: &Load) -> f64 {
+        load.force.dot(&self.solver.drag_axis(&self.flow)) / surface.area
+    }
+
     /// Forces of each surface: the `.fn` file.
     pub fn surface_forces(&self) -> SurfaceForces {
         let lattice = self.solver.lattice();
@@ -230,7 +253,7 @@ impl Solution<'_> {
             let (load, viscous) = self.surface_load(surface);
             let c = Coefficients::of(&load, lattice);
             let (stability, (_, moment)) = (c.stability(alpha), c.body());
-            let local = s_ref / surface.area;
+            let cdv_local = viscous / surface.area;
             let viscous = viscous / s_ref;
             SurfaceForce {
                 index: k + 1,
@@ -245,9 +268,9 @@ impl Solution<'_> {
                 c_drag_induced: stability.drag - viscous,
                 c_drag_viscous: viscous,
                 average_chord: surface.average_chord,
-                cl_local: stability.lift * local,
-                cd_local: stability.drag * local,
-                cdv_local: viscous * local,
+                cl_local: self.local_lift(surface, &load),
+                cd_local: self.local_drag(surface, &load),
+                cdv_local,
                 cm_le_local: None,
             }
         };

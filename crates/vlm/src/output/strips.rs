@@ -54,8 +54,8 @@ impl Solution<'_> {
             c_n: m.z,
             c_drag_induced: s.drag - viscous,
             c_drag_viscous: viscous,
-            cl_local: s.lift * s_ref / surface.area,
-            cd_local: s.drag * s_ref / surface.area,
+            cl_local: self.local_lift(surface, &load),
+            cd_local: self.local_drag(surface, &load),
         }
     }
 
@@ -66,7 +66,7 @@ impl Solution<'_> {
         let (area, chord) = (strip.area(), strip.chord);
         let force = own.load.force / area;
         let moment = own.load.moment / (area * chord);
-        let cl = force.dot(&self.solver.lift_axis(&self.flow, strip));
+        let cl = force.dot(&self.solver.lift_axis(&self.flow, &strip.normal));
         let cm_c4 = strip.normal.z * moment.y - strip.normal.y * moment.z;
         let xcp = 0.25 - cm_c4 / cl;
         Strip {

@@ -1,8 +1,7 @@
-//! The surrogate aircraft against AVL 3.52's printed digits.
-
-use std::collections::BTreeMap;
+//! The surrogate aircraft against the printed digits of AVL 3.52.
 
 use albatross_avl::geometry::Geometry;
+use albatross_avl::results::{BodyDerivatives, HingeMoments, SurfaceForces};
 use albatross_avl::run::{RunFile, RunTarget, RunVariable};
 use albatross_vlm::{Condition, Lattice, Method, Solver, Trim};
 
@@ -20,9 +19,20 @@ pub(crate) fn lattice() -> (Geometry, Lattice) {
     (geometry, lattice)
 }
 
-/// Numbers of two texts, line by line: those that differ, with the number of units in the last digit.
-fn differences(name: &str, ours: &str, avl: &str) -> Vec<(String, f64)> {
-    let mut out = Vec::new();
+/// Counts of compared numbers, and those that print differently.
+#[derive(Default)]
+struct Tally {
+    compared: usize,
+    /// Differences of one unit in the last digit.
+    last_digit: Vec<String>,
+    /// Local lift of the closed nacelle ring.
+    ring: usize,
+    /// Larger ones.
+    wrong: Vec<String>,
+}
+
+/// Compares the numbers of two texts, line by line.
+fn compare(name: &str, ours: &str, avl: &str, tally: &mut Tally) {
     let numbers = |line: &str| -> Vec<String> {
         let spaced = line.replace('=', " = ");
         spaced
@@ -31,79 +41,151 @@ fn differences(name: &str, ours: &str, avl: &str) -> Vec<(String, f64)> {
             .map(str::to_owned)
             .collect()
     };
+    assert_eq!(ours.lines().count(), avl.lines().count(), "{name}");
+    let mut surface = String::new();
     for (k, (a, b)) in ours.lines().zip(avl.lines()).enumerate() {
-        if a.contains("Run case") || b.contains("Configuration") {
+        if b.contains("Surface #") {
+            surface = b.to_owned();
+        }
+        if b.contains("Run case") || b.contains("Configuration") {
             continue;
         }
+        // The normals of a closed ring cancel: AVL normalises what rounding leaves.
+        let ring = surface.contains("Nacelle") && b.contains("CLsurf") && b.contains("CDsurf");
         let (a, b) = (numbers(a), numbers(b));
         assert_eq!(a.len(), b.len(), "{name}:{}: {a:?} {b:?}", k + 1);
-        for (x, y) in a.iter().zip(&b) {
+        // Where the lift prints as zero the centre of pressure is a quotient of rounding errors.
+        let no_lift = b.len() == 15 && b[6].trim_start_matches('-') == "0.0000";
+        for (column, (x, y)) in a.iter().zip(&b).enumerate() {
+            if no_lift && column == 14 {
+                continue;
+            }
+            tally.compared += 1;
             let digits = y.split_once('.').map_or(0, |d| d.1.len());
             let (u, v) = (x.parse::<f64>().unwrap(), y.parse::<f64>().unwrap());
             let units = (u - v).abs() * 10_f64.powi(digits as i32);
-            if units > 0.5 {
-                out.push((format!("{name}:{}: {x} for {y} in {:?}", k + 1, b), units));
+            let line = format!("{name}:{}: {x} for {y}", k + 1);
+            match units {
+                u if u < 0.5 => {}
+                u if u < 1.5 => tally.last_digit.push(line),
+                _ if ring && column == 0 => tally.ring += 1,
+                _ => tally.wrong.push(line),
             }
         }
     }
-    assert_eq!(ours.lines().count(), avl.lines().count(), "{name}");
-    out
 }
 
 #[test]
-fn val_digits_of_avl_352() {
+fn val_printed_digits_of_avl_352() {
     let (geometry, lattice) = lattice();
+    assert_eq!((lattice.vortices.len(), lattice.strips.len()), (5274, 220));
     let solver = Solver::new(&lattice, &Method::AVL_352, geometry.mach).unwrap();
-    let mut found = BTreeMap::new();
-    let mut report = |name: &str, ours: String| {
-        let avl = read(&format!("avl_out/{name}"));
-        let total = avl
-            .split_whitespace()
-            .filter(|w| w.parse::<f64>().is_ok())
-            .count();
-        let d = differences(name, &ours, &avl);
-        println!("{name}: {} of {total} numbers differ", d.len());
-        for line in &d {
-            println!("   {} ({:.0})", line.0, line.1);
-        }
-        found.insert(name.to_owned(), d);
+    let mut tally = Tally::default();
+    let mut check = |name: &str, ours: String| {
+        compare(name, &ours, &read(&format!("avl_out/{name}")), &mut tally);
     };
     for alpha in [0.0, 1.0, 2.0, 4.0] {
         let s = solver.solve(&Condition::at_alpha_deg(alpha, &lattice)).unwrap();
-        report(&format!("alpha{alpha}.fs"), s.strip_forces().to_text().unwrap());
+        check(&format!("alpha{alpha}.fs"), s.strip_forces().to_text().unwrap());
         if alpha == 0.0 {
-            report("alpha0.ft", s.run_state(" -unnamed-").to_text().unwrap());
+            check("alpha0.ft", s.run_state("").to_text().unwrap());
         }
         if alpha == 2.0 {
-            report(
-                "alpha2.st",
-                s.stability_derivatives(" -unnamed-").to_text().unwrap(),
-            );
+            check("alpha2.st", s.stability_derivatives("").to_text().unwrap());
         }
     }
-    let mut trim = Trim::new(&lattice);
-    trim.set(&lattice, &RunVariable::Alpha, RunTarget::Lift, 0.5644)
-        .unwrap();
-    trim.set(
-        &lattice,
-        &RunVariable::Control("elevator".into()),
-        RunTarget::PitchMoment,
-        0.0,
-    )
-    .unwrap();
-    let s = solver.trim(&trim).unwrap();
-    report("trim.ft", s.run_state(" -unnamed-").to_text().unwrap());
-    report(
-        "trim.st",
-        s.stability_derivatives(" -unnamed-").to_text().unwrap(),
+    let s = solver.trim(&trim(&lattice)).unwrap();
+    check("trim.ft", s.run_state("").to_text().unwrap());
+    check("trim.st", s.stability_derivatives("").to_text().unwrap());
+    check("trim.fs", s.strip_forces().to_text().unwrap());
+    println!(
+        "{} numbers, {} differ by one unit in the last digit: {:#?}, {} local lifts of rings",
+        tally.compared,
+        tally.last_digit.len(),
+        tally.last_digit,
+        tally.ring
     );
-    report("trim.fs", s.strip_forces().to_text().unwrap());
-    println!("{:#?}", s.hinge_moments(None));
-    println!("{:#?}", s.surface_forces().surfaces[5]);
-    println!("{:#?}", s.body_derivatives("").u);
-    println!("{:#?}", s.body_derivatives("").v);
-    println!("{:#?}", s.body_derivatives("").controls[3]);
+    assert!(tally.wrong.is_empty(), "{:#?}", tally.wrong);
+    // Ten are one z coordinate, 0.09015 exactly, which AVL rounds up in its own order of operations; the rest come
+    // from AVL's tolerance in finding points of the aerofoil's outline.
+    assert!(tally.last_digit.len() <= 22, "{:#?}", tally.last_digit);
+}
+
+/// As `commands_avl352.txt`.
+fn trim(lattice: &Lattice) -> Trim {
+    let mut trim = Trim::new(lattice);
+    let elevator = RunVariable::Control("elevator".to_owned());
+    trim.set(lattice, &RunVariable::Alpha, RunTarget::Lift, 0.5644)
+        .unwrap();
+    trim.set(lattice, &elevator, RunTarget::PitchMoment, 0.0).unwrap();
+    trim
+}
+
+#[test]
+fn val_surfaces_hinges_and_body_axes_of_avl_352() {
+    let (geometry, lattice) = lattice();
+    let solver = Solver::new(&lattice, &Method::AVL_352, geometry.mach).unwrap();
+    let s = solver.trim(&trim(&lattice)).unwrap();
+
+    let avl = SurfaceForces::parse(&read("avl_out/trim.fn"), "trim.fn").unwrap();
+    for (ours, avl) in s.surface_forces().surfaces.iter().zip(&avl.surfaces) {
+        assert_eq!(ours.name, avl.name);
+        let pairs = [
+            (ours.c_lift, avl.c_lift),
+            (ours.c_drag, avl.c_drag),
+            (ours.c_m, avl.c_m),
+            (ours.c_y, avl.c_y),
+            (ours.c_n, avl.c_n),
+            (ours.c_roll, avl.c_roll),
+            (ours.c_drag_induced, avl.c_drag_induced),
+            (ours.cd_local, avl.cd_local),
+        ];
+        for (u, v) in pairs {
+            assert!((u - v).abs() < 0.5001e-4, "{}: {u} {v}", ours.name);
+        }
+        assert!((ours.area - avl.area).abs() < 0.5001e-3);
+        assert!(ours.name.starts_with("Nacelle") || (ours.cl_local - avl.cl_local).abs() < 0.5001e-4);
+    }
+
+    let avl = BodyDerivatives::parse(&read("avl_out/trim.sb"), "trim.sb").unwrap();
+    let ours = s.body_derivatives("");
+    let columns = |d: &BodyDerivatives| {
+        let mut all = vec![d.u, d.v, d.w, d.p, d.q, d.r];
+        all.extend(d.controls.iter().map(|c| c.column));
+        all
+    };
+    for (u, v) in columns(&ours).iter().zip(columns(&avl)) {
+        for (u, v) in [
+            (u.x, v.x),
+            (u.y, v.y),
+            (u.z, v.z),
+            (u.roll, v.roll),
+            (u.pitch, v.pitch),
+            (u.yaw, v.yaw),
+        ] {
+            // Six decimals; Cmq of 94 feels the aerofoil's outline in its eighth digit.
+            assert!((u - v).abs() < 0.51e-6 + 1.5e-8 * v.abs(), "{u} {v}");
+        }
+    }
+
+    let avl = HingeMoments::parse(&read("avl_out/trim.hm"), "trim.hm").unwrap();
+    for (u, v) in s.hinge_moments(None).controls.iter().zip(&avl.controls) {
+        assert!(
+            (u.c_hinge - v.c_hinge).abs() < 0.51e-8,
+            "{}: {} {}",
+            u.name,
+            u.c_hinge,
+            v.c_hinge
+        );
+    }
+}
+
+#[test]
+fn regress_run_case_is_trimmed() {
+    let (geometry, lattice) = lattice();
+    let solver = Solver::new(&lattice, &Method::AVL_352, geometry.mach).unwrap();
     let (run, _) = RunFile::parse(&read("f25.run"), "f25.run").unwrap();
-    let t = Trim::of_run_case(&lattice, &run.cases[0]).unwrap();
-    assert!((solver.trim(&t).unwrap().c_lift() - 0.564364).abs() < 1e-9);
+    let trim = Trim::of_run_case(&lattice, &run.cases[0]).unwrap();
+    let s = solver.trim(&trim).unwrap();
+    assert!((s.c_lift() - 0.564364).abs() < 1e-10 && s.c_m().abs() < 1e-10);
 }
