@@ -149,6 +149,31 @@ impl Factor<'_> {
         self.scale_rows(x);
     }
 
+    /// The freedom that moves most in a motion which the matrix maps to nothing, if there is one: inverse iteration on
+    /// the scaled matrix, whose smallest eigenvalue is then rounding noise.
+    pub(crate) fn null_motion(&self, a: &Symmetric) -> Option<usize> {
+        const NOISE: f64 = 1e-14;
+        let mut x = crate::pencil::random_block(a.order(), 1);
+        for _ in 0..3 {
+            // With y = S^-1 x the iteration on S A S is x -> A^-1 S^-2 x.
+            for (v, s) in x.col_mut(0).iter_mut().zip(&self.scale) {
+                *v /= s * s;
+            }
+            self.solve_in_place(&mut x);
+            let largest = x.col(0).iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            x.col_mut(0).iter_mut().for_each(|v| *v /= largest);
+        }
+        let x: Vec<f64> = x.col(0).iter().copied().collect();
+        let scaled = || x.iter().zip(&self.scale).map(|(v, s)| v / s);
+        let energy: f64 = a.apply(&x).iter().zip(&x).map(|(p, x)| p * x).sum();
+        let size: f64 = scaled().map(|y| y * y).sum();
+        if energy.abs() > NOISE * size {
+            return None;
+        }
+        let largest = scaled().map(f64::abs).enumerate().max_by(|p, q| p.1.total_cmp(&q.1));
+        largest.map(|(i, _)| i)
+    }
+
     fn scale_rows(&self, x: &mut Mat<f64>) {
         for k in 0..x.ncols() {
             for (v, s) in x.col_mut(k).iter_mut().zip(&self.scale) {
