@@ -1,14 +1,14 @@
-//! Sparse Cholesky factors of K - sigma M with a fill-reducing order, and the freedoms at which they break down.
+//! Sparse factors L D L^T of K - sigma M with a fill-reducing order, and the freedoms at which they break down.
 
 use albatross_numerics::Mat;
 use albatross_numerics::faer::dyn_stack::{MemBuffer, MemStack};
-use albatross_numerics::faer::linalg::cholesky::llt::factor::LltRegularization;
+use albatross_numerics::faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use albatross_numerics::faer::perm::PermRef;
 use albatross_numerics::faer::sparse::linalg::SupernodalThreshold;
 use albatross_numerics::faer::sparse::linalg::amd;
 use albatross_numerics::faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky, supernodal::SupernodalLltRef,
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
 };
 use albatross_numerics::faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use albatross_numerics::faer::{Conj, Par, Side};
@@ -28,7 +28,7 @@ pub(crate) struct Analysis {
     symbolic: SymbolicCholesky<usize>,
 }
 
-/// The factor L L^T of S A S, where S scales A to unit diagonal.
+/// The factor L D L^T of S A S, where S scales A to unit diagonal.
 #[derive(Debug)]
 pub(crate) struct Factor<'a> {
     analysis: &'a Analysis,
@@ -86,13 +86,14 @@ impl Analysis {
         let mut values = vec![0.0; self.symbolic.len_val()];
         let scratch = self
             .symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+            .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
         self.symbolic
-            .factorize_numeric_llt(
+            .factorize_numeric_ldlt(
                 &mut values,
                 SparseColMatRef::new(structure(a), &scaled),
                 Side::Lower,
-                LltRegularization {
+                LdltRegularization {
+                    dynamic_regularization_signs: Some(&vec![1; a.order()]),
                     dynamic_regularization_delta: HELD_PIVOT,
                     dynamic_regularization_epsilon: ZERO_PIVOT,
                 },
@@ -115,14 +116,14 @@ impl Analysis {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
             return Vec::new();
         };
-        let factor = SupernodalLltRef::new(symbolic, values);
+        let factor = SupernodalLdltRef::new(symbolic, values);
         let forward = self.symbolic.perm().map(|p| p.arrays().0);
         let mut held = Vec::new();
         for s in 0..symbolic.n_supernodes() {
             let node = factor.supernode(s);
             let block = node.val();
             for k in 0..block.ncols() {
-                if block[(k, k)] >= 0.5 * HELD_PIVOT.sqrt() {
+                if block[(k, k)] >= 0.5 * HELD_PIVOT {
                     let at = node.start() + k;
                     held.push(forward.map_or(at, |f| f[at]));
                 }
@@ -139,13 +140,38 @@ impl Factor<'_> {
         self.scale_rows(x);
         let symbolic = &self.analysis.symbolic;
         let scratch = symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
-        LltRef::new(symbolic, &self.values).solve_in_place_with_conj(
+        LdltRef::new(symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
             x.as_mut(),
             Par::Seq,
             MemStack::new(&mut MemBuffer::new(scratch)),
         );
         self.scale_rows(x);
+    }
+
+    /// The freedom that moves most in a motion which the matrix maps to nothing, if there is one: inverse iteration on
+    /// the scaled matrix, whose smallest eigenvalue is then rounding noise.
+    pub(crate) fn null_motion(&self, a: &Symmetric) -> Option<usize> {
+        const NOISE: f64 = 1e-14;
+        let mut x = crate::pencil::random_block(a.order(), 1);
+        for _ in 0..3 {
+            // With y = S^-1 x the iteration on S A S is x -> A^-1 S^-2 x.
+            for (v, s) in x.col_mut(0).iter_mut().zip(&self.scale) {
+                *v /= s * s;
+            }
+            self.solve_in_place(&mut x);
+            let largest = x.col(0).iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            x.col_mut(0).iter_mut().for_each(|v| *v /= largest);
+        }
+        let x: Vec<f64> = x.col(0).iter().copied().collect();
+        let scaled = || x.iter().zip(&self.scale).map(|(v, s)| v / s);
+        let energy: f64 = a.apply(&x).iter().zip(&x).map(|(p, x)| p * x).sum();
+        let size: f64 = scaled().map(|y| y * y).sum();
+        if energy.abs() > NOISE * size {
+            return None;
+        }
+        let largest = scaled().map(f64::abs).enumerate().max_by(|p, q| p.1.total_cmp(&q.1));
+        largest.map(|(i, _)| i)
     }
 
     fn scale_rows(&self, x: &mut Mat<f64>) {

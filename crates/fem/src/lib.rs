@@ -2,6 +2,7 @@
 
 mod context;
 mod dofs;
+mod effective_mass;
 mod error;
 mod factor;
 mod lanczos;
@@ -13,14 +14,18 @@ mod mass_properties;
 mod model;
 mod modes;
 mod multipoint;
+mod pencil;
+mod reduction;
 mod rigid;
 mod sparse;
+mod statics;
 mod stiffness;
 mod supports;
 pub mod text;
 mod unknown;
 
 pub use dofs::{Freedoms, Point};
+pub use effective_mass::EffectiveMass;
 pub use error::Error;
 pub use listing::listing;
 pub use mass::{BarMass, DeckMass};
@@ -28,6 +33,8 @@ pub use mass_model::{GridMass, MassModel};
 pub use mass_properties::{MassProperties, MassSource};
 pub use model::{Fate, FemModel, ModelOptions};
 pub use modes::{ModeScale, Modes, ModesOptions};
+pub use reduction::{ReducedModel, all_components, analysis_set};
 pub use rigid::{RIGID_DIRECTIONS, rigid_shape};
 pub use sparse::Symmetric;
+pub use statics::{NodalLoad, StaticSolution};
 pub use supports::free_directions;

@@ -359,6 +359,50 @@ impl FemModel {
         }
     }
 
+    /// K u of the elements on all freedoms, before constraints.
+    pub(crate) fn internal_forces(&self, u: &[f64]) -> Vec<f64> {
+        let mut forces = vec![0.0; u.len()];
+        let at = |id: Id| {
+            let first = self.freedoms.point(id)?.first;
+            let turn = rotation_blocks(&self.frames.grid(id)?.axes);
+            let local = nalgebra::Vector6::from_fn(|i, _| u[first + i]);
+            Some((first, turn, turn * local))
+        };
+        for pair in &self.elements.pairs {
+            let Some((first_a, turn_a, ua)) = at(pair.a) else { continue };
+            let [aa, ab, bb] = &pair.blocks;
+            let mut fa = aa * ua;
+            if let Some((first_b, turn_b, ub)) = pair.b.and_then(at) {
+                fa += ab * ub;
+                let fb = turn_b.transpose() * (ab.transpose() * ua + bb * ub);
+                (0..6).for_each(|i| forces[first_b + i] += fb[i]);
+            }
+            let fa = turn_a.transpose() * fa;
+            (0..6).for_each(|i| forces[first_a + i] += fa[i]);
+        }
+        for spring in &self.elements.springs {
+            let [a, b] = spring.ends;
+            let stretch = a.map_or(0.0, |a| u[a]) - b.map_or(0.0, |b| u[b]);
+            if let Some(a) = a {
+                forces[a] += spring.value * stretch;
+            }
+            if let Some(b) = b {
+                forces[b] -= spring.value * stretch;
+            }
+        }
+        forces
+    }
+
+    /// Forces on dependent freedoms act on the independent ones.
+    pub(crate) fn carry_to_independent(&self, forces: &mut [f64]) {
+        for relation in &self.relations {
+            let force = std::mem::take(&mut forces[relation.dependent]);
+            for &(j, c) in &relation.terms {
+                forces[j] += c * force;
+            }
+        }
+    }
+
     fn add_block(&self, row: usize, column: usize, block: &Matrix6<f64>, triplets: &mut Triplets) {
         for j in 0..6 {
             let right = self.constraints.row(column + j);

@@ -10,14 +10,11 @@ use std::f64::consts::TAU;
 
 use crate::dofs::Freedoms;
 use crate::error::Error;
-use crate::factor::{Analysis, Factor};
-use crate::lanczos::{self, Pairs, Wanted};
+use crate::lanczos::{Pairs, Wanted};
 use crate::model::{FemModel, listed};
-use crate::sparse::Symmetric;
+use crate::pencil::{BLOCK, Pencil, Shifted};
 use crate::supports::selected;
 
-/// Vectors in a block: more than the rigid modes of a free body, so that they are found at once.
-const BLOCK: usize = 8;
 /// Modes when nothing says how many.
 const DEFAULT_COUNT: usize = 20;
 
@@ -131,32 +128,10 @@ impl FemModel {
     /// [`Error::Factorisation`] for numbers that are not finite.
     pub fn modes(&self, options: &ModesOptions) -> Result<Modes, Error> {
         options.check()?;
-        let mut model = Cow::Borrowed(self);
-        let mut remarks = Vec::new();
-        let nodes = model.nodes();
-        let mut analysis = Analysis::new(&model.pattern(), &nodes)?;
-        let mut sigma = model.first_shift()?;
-        let singular = {
-            let a = model.stiffness.combined(1.0, &model.mass, -sigma);
-            analysis.factorise(&a)?.singular
-        };
-        if !singular.is_empty() {
-            let freedoms: Vec<usize> = singular
-                .iter()
-                .filter_map(|&k| model.constraints.free.get(k).copied())
-                .collect();
-            remarks.push(format!(
-                "{} motions have neither stiffness nor mass; held at {}",
-                freedoms.len(),
-                listed(&model.freedoms, &freedoms)
-            ));
-            model.to_mut().hold(freedoms);
-            analysis = Analysis::new(&model.pattern(), &model.nodes())?;
-            sigma = model.first_shift()?;
-        }
-        let model = model.as_ref();
-        let (factor, start, sigma) = model.shifted(&analysis, sigma)?;
-        let pairs = model.in_range(&factor, &start, sigma, options)?;
+        let (model, mut remarks) = self.without_massless_motions()?;
+        let pencil = model.pencil();
+        let analysis = pencil.analysis()?;
+        let pairs = in_range(&pencil.shifted(&analysis)?, model.mass.order(), options)?;
         if pairs.exhausted && options.count.is_some_and(|n| n > pairs.eigenvalues.len()) {
             remarks.push(format!(
                 "the model has {} modes, fewer than asked for",
@@ -166,97 +141,48 @@ impl FemModel {
         Ok(model.finish(pairs, options.scale, remarks, analysis.stored()))
     }
 
-    fn nodes(&self) -> Vec<usize> {
+    pub(crate) fn pencil(&self) -> Pencil<'_> {
+        Pencil {
+            stiffness: &self.stiffness,
+            mass: &self.mass,
+            nodes: self.nodes(),
+        }
+    }
+
+    /// The model with motions held that have neither stiffness nor mass, and remarks that name them.
+    fn without_massless_motions(&self) -> Result<(Cow<'_, Self>, Vec<String>), Error> {
+        let mut model = Cow::Borrowed(self);
+        let mut held = Vec::new();
+        loop {
+            let pencil = model.pencil();
+            let found = pencil.massless_motions(&pencil.analysis()?, pencil.first_shift()?)?;
+            let free = &model.constraints.free;
+            let freedoms: Vec<usize> = found.iter().filter_map(|&k| free.get(k).copied()).collect();
+            if freedoms.is_empty() {
+                break;
+            }
+            held.extend_from_slice(&freedoms);
+            model.to_mut().hold(freedoms);
+        }
+        let mut remarks = Vec::new();
+        if !held.is_empty() {
+            remarks.push(format!(
+                "{} motions have neither stiffness nor mass; held at {}",
+                held.len(),
+                listed(&model.freedoms, &held)
+            ));
+        }
+        Ok((model, remarks))
+    }
+
+    /// The point of each free freedom.
+    pub(crate) fn nodes(&self) -> Vec<usize> {
         let points = self.freedoms.points();
         let point = |&g: &usize| points.partition_point(|p| p.first <= g);
         self.constraints.free.iter().map(point).collect()
     }
 
-    fn pattern(&self) -> Symmetric {
-        self.stiffness.combined(1.0, &self.mass, 1.0)
-    }
-
-    /// A shift that is surely large enough to make K - sigma M definite in double precision: a millionth of the
-    /// median of k_ii / m_ii.
-    fn first_shift(&self) -> Result<f64, Error> {
-        let (k, m) = (self.stiffness.diagonal(), self.mass.diagonal());
-        let massive = k.iter().zip(&m).filter(|(_, m)| **m > 0.0);
-        let mut ratios: Vec<f64> = massive.map(|(k, m)| k / m).collect();
-        if ratios.is_empty() {
-            return Err(Error::EmptyModel {
-                problem: "no free freedom carries mass; give densities (RHO on MAT1), NSM or CONM2".into(),
-            });
-        }
-        ratios.sort_by(f64::total_cmp);
-        let median = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0);
-        Ok(if median > 0.0 { -1e-6 * median } else { -1.0 })
-    }
-
-    /// A factor with a shift of the size of the lowest elastic eigenvalues, and a block to start with.
-    fn shifted<'a>(
-        &self,
-        analysis: &'a Analysis,
-        mut sigma: f64,
-    ) -> Result<(Factor<'a>, Mat<f64>, f64), Error> {
-        let n = self.mass.order();
-        let mut block = random_block(n, BLOCK.min(n));
-        for round in 0.. {
-            let a = self.stiffness.combined(1.0, &self.mass, -sigma);
-            let factor = analysis.factorise(&a)?;
-            let (next, estimates) = lanczos::subspace(&factor, &self.mass, sigma, block, 3)?;
-            let size = estimates.last().copied().unwrap_or(0.0);
-            let is_fit = size > 0.0 && (0.02..20.0).contains(&(-sigma / size));
-            if is_fit || size <= 0.0 || round >= 4 {
-                return Ok((factor, next, sigma));
-            }
-            sigma = -size;
-            block = next;
-        }
-        Err(Error::EmptyModel {
-            problem: "no shift was found".into(),
-        })
-    }
-
-    fn in_range(
-        &self,
-        factor: &Factor<'_>,
-        start: &Mat<f64>,
-        sigma: f64,
-        options: &ModesOptions,
-    ) -> Result<Pairs, Error> {
-        let n = self.mass.order();
-        let eigenvalue = |hz: f64| (TAU * hz).powi(2);
-        let limit = options.upper_hz.map(eigenvalue);
-        let wanted = |count: usize| match limit {
-            Some(limit) => Wanted::Below(limit, count),
-            None => Wanted::Count(count),
-        };
-        let asked = options
-            .count
-            .unwrap_or(if limit.is_some() { n } else { DEFAULT_COUNT });
-        let Some(lower) = options.lower_hz.filter(|&f| f > 0.0).map(eigenvalue) else {
-            return lanczos::lowest(factor, &self.mass, sigma, start.clone(), wanted(asked.min(n)));
-        };
-        // Modes below the range have to be found too; how many is not known beforehand.
-        let mut count = asked.min(n);
-        loop {
-            let pairs = lanczos::lowest(factor, &self.mass, sigma, start.clone(), wanted(count))?;
-            let below = pairs.eigenvalues.partition_point(|&l| l < lower);
-            let within = pairs.eigenvalues.len() - below;
-            let complete = within >= asked || pairs.eigenvalues.len() < count || count == n;
-            if complete {
-                let taken = within.min(asked);
-                return Ok(Pairs {
-                    eigenvalues: pairs.eigenvalues[below..below + taken].to_vec(),
-                    vectors: pairs.vectors.subcols(below, taken).to_owned(),
-                    exhausted: pairs.exhausted,
-                });
-            }
-            count = (count + (asked - within) + BLOCK).min(n);
-        }
-    }
-
-    fn finish(&self, pairs: Pairs, scale: ModeScale, remarks: Vec<String>, factor_entries: usize) -> Modes {
+    pub(crate) fn finish(&self, pairs: Pairs, scale: ModeScale, remarks: Vec<String>, factor_entries: usize) -> Modes {
         let residuals = self.residuals(&pairs);
         let count = pairs.eigenvalues.len();
         let mut shapes = Mat::zeros(self.freedoms.count(), count);
@@ -311,15 +237,37 @@ impl FemModel {
     }
 }
 
-/// Numbers in (-1, 1) that are the same in every run (a linear congruential sequence, Knuth's MMIX constants).
-fn random_block(n: usize, columns: usize) -> Mat<f64> {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    Mat::from_fn(n, columns, |_, _| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    })
+/// Modes of the range and number asked for.
+fn in_range(shifted: &Shifted<'_>, n: usize, options: &ModesOptions) -> Result<Pairs, Error> {
+    let eigenvalue = |hz: f64| (TAU * hz).powi(2);
+    let limit = options.upper_hz.map(eigenvalue);
+    let wanted = |count: usize| match limit {
+        Some(limit) => Wanted::Below(limit, count),
+        None => Wanted::Count(count),
+    };
+    let asked = options
+        .count
+        .unwrap_or(if limit.is_some() { n } else { DEFAULT_COUNT })
+        .min(n);
+    let Some(lower) = options.lower_hz.filter(|&f| f > 0.0).map(eigenvalue) else {
+        return shifted.lowest(wanted(asked));
+    };
+    // Modes below the range have to be found too; how many is not known beforehand.
+    let mut count = asked;
+    loop {
+        let pairs = shifted.lowest(wanted(count))?;
+        let below = pairs.eigenvalues.partition_point(|&l| l < lower);
+        let within = pairs.eigenvalues.len() - below;
+        if within >= asked || pairs.eigenvalues.len() < count || count == n {
+            let taken = within.min(asked);
+            return Ok(Pairs {
+                eigenvalues: pairs.eigenvalues[below..below + taken].to_vec(),
+                vectors: pairs.vectors.subcols(below, taken).to_owned(),
+                exhausted: pairs.exhausted,
+            });
+        }
+        count = (count + (asked - within) + BLOCK).min(n);
+    }
 }
 
 impl Modes {

@@ -132,13 +132,15 @@ impl Symmetric {
         y
     }
 
-    /// The matrix without stored zeros off the diagonal.
-    pub(crate) fn pruned(&self) -> Self {
+    /// Rows and columns of an ascending list; `position[i]` is the place of i in it, or none.
+    pub(crate) fn part(&self, size: usize, position: &[Option<usize>]) -> Self {
         let mut triplets = Triplets::default();
         for (i, j, v) in self.entries() {
-            triplets.add(i, j, v);
+            if let (Some(p), Some(q)) = (position[i], position[j]) {
+                triplets.add(p, q, v);
+            }
         }
-        Self::new(self.order(), triplets)
+        Self::new(size, triplets)
     }
 
     /// a A + b B on the union of both patterns.
@@ -213,7 +215,7 @@ mod tests {
         );
         assert_eq!(a.apply(&[1.0, 2.0, 3.0]), [13.0, -3.0, 1.0]);
         assert_eq!(a.diagonal(), [4.0, 0.0, 0.0]);
-        let b = a.combined(2.0, &a.pruned(), -1.0);
+        let b = a.combined(2.0, &a, -1.0);
         assert_eq!(b.entries().collect::<Vec<_>>(), entries);
     }
 }

@@ -79,3 +79,13 @@ fn val_beams_with_lumped_mass() {
     assert!(frequency < 1e-6, "{frequency:e}");
     assert!(mac < 1e-9, "{mac:e}");
 }
+
+/// The motion without stiffness and mass is named.
+#[test]
+fn massless_spin_is_held_with_a_remark() {
+    let deck = read("nastran/free.bdf");
+    let model = FemModel::assemble(&deck, &lumped()).expect("a model");
+    let modes = model.modes(&ModesOptions::of_deck(&deck, None)).expect("modes");
+    assert_eq!(modes.remarks.len(), 1, "{:?}", modes.remarks);
+    assert!(modes.remarks[0].contains("R1"), "{}", modes.remarks[0]);
+}
