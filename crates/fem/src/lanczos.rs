@@ -9,9 +9,9 @@
 //! is kept M-orthonormal against all earlier blocks by two Gram-Schmidt passes. M may be singular: vectors without
 //! mass are purged because every basis block, and every result, is a product of the operator.
 
-use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;
 use albatross_numerics::faer::{Accum, MatRef, Par, Side};
+use albatross_numerics::Mat;
 
 use crate::error::Error;
 use crate::factor::Factor;
@@ -179,7 +179,8 @@ impl Krylov<'_> {
             h += self.remove_basis(&mut w);
         }
         for j in 0..w.ncols() {
-            self.projected.push((0..=first + j).map(|i| h[(i, j)]).collect());
+            self.projected
+                .push((0..=first + j).map(|i| h[(i, j)]).collect());
         }
         self.orthonormalise(w)
     }
@@ -189,14 +190,7 @@ impl Krylov<'_> {
         let mw = self.mass.apply_columns(w);
         let mut h = Mat::zeros(self.size, w.ncols());
         let v = self.vectors();
-        matmul(
-            h.as_mut(),
-            Accum::Replace,
-            v.transpose(),
-            mw.as_ref(),
-            1.0,
-            Par::Seq,
-        );
+        matmul(h.as_mut(), Accum::Replace, v.transpose(), mw.as_ref(), 1.0, Par::Seq);
         matmul(w.as_mut(), Accum::Add, v, h.as_ref(), -1.0, Par::Seq);
         h
     }
@@ -229,15 +223,8 @@ impl Krylov<'_> {
         let (g, u) = (eigen.S(), eigen.U());
         // Noise: relative to this block, and to what the operator makes of a unit vector.
         let largest = (0..b).fold(0.0_f64, |m, k| m.max(g[k]));
-        let scale = self
-            .projected
-            .first()
-            .and_then(|c| c.first())
-            .copied()
-            .unwrap_or(0.0);
-        let floor = (1e-20 * largest)
-            .max((1e-13 * scale).powi(2))
-            .max(f64::MIN_POSITIVE);
+        let scale = self.projected.first().and_then(|c| c.first()).copied().unwrap_or(0.0);
+        let floor = (1e-20 * largest).max((1e-13 * scale).powi(2)).max(f64::MIN_POSITIVE);
         let kept: Vec<usize> = (0..b).rev().filter(|&k| g[k] > floor).collect();
         let left = Mat::from_fn(b, kept.len(), |i, j| u[(i, kept[j])] / g[kept[j]].sqrt());
         let right = Mat::from_fn(kept.len(), b, |i, j| u[(j, kept[i])] * g[kept[i]].sqrt());
@@ -266,11 +253,7 @@ impl Krylov<'_> {
         let mx = self.mass.apply_columns(&x);
         for k in 0..x.ncols() {
             let mass: f64 = x.col(k).iter().zip(mx.col(k).iter()).map(|(a, b)| a * b).sum();
-            let scale = if mass > 0.0 {
-                1.0 / mass.sqrt()
-            } else {
-                1.0 / theta[k]
-            };
+            let scale = if mass > 0.0 { 1.0 / mass.sqrt() } else { 1.0 / theta[k] };
             x.col_mut(k).iter_mut().for_each(|v| *v *= scale);
         }
         x

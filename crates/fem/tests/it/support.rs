@@ -18,9 +18,7 @@ pub(crate) fn parse(bulk: &str) -> Deck {
 
 pub(crate) fn with_case(case: &str, bulk: &str) -> Deck {
     let text = format!("SOL 103\nCEND\n{case}\nBEGIN BULK\n{bulk}\nENDDATA\n");
-    refuse_errors(bdf::parse(text.as_bytes(), "test.bdf"))
-        .expect("a valid deck")
-        .0
+    refuse_errors(bdf::parse(text.as_bytes(), "test.bdf")).expect("a valid deck").0
 }
 
 pub(crate) fn model(deck: &Deck) -> FemModel {
