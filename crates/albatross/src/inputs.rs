@@ -1,16 +1,17 @@
 //! The files that a case names, read.
 
 use crate::Error;
-use crate::case::{Case, SOLVE, SignalCase, StripFileCase};
+use crate::case::{Case, LiftSlopes, SOLVE, SignalCase, StripFileCase};
 use crate::lattice::{self, Level};
 use crate::modes;
 use crate::tables::{self, Columns};
 use albatross_avl::geometry::Geometry;
-use albatross_avl::results::{StabilityDerivatives, StripForces};
+use albatross_avl::results::{StabilityDerivatives, Strip, StripForces, StripSurface};
 use albatross_flight::atmosphere;
 use albatross_flight::derivatives::LongitudinalCorrections;
 use albatross_modal::{MassProperties, ModalBasis};
 use albatross_nastran::{Deck, ModalResults, bdf, f06};
+use albatross_numerics::Mat;
 use albatross_strip::slopes::SlopeTable;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +34,8 @@ pub struct Inputs {
     pub strips: [StripForces; 2],
     /// The two incidences \[deg\].
     pub strip_alphas_deg: [f64; 2],
+    /// Lift slopes between all strips of the strip forces, rows that are lifted by columns that turn \[m/rad\].
+    pub slopes_between: Option<Mat<f64>>,
     /// Lift slopes of higher fidelity.
     pub slope_table: Option<SlopeTable>,
     /// Longitudinal derivatives of higher fidelity.
@@ -79,8 +82,18 @@ impl Inputs {
             derivatives,
             strips,
             strip_alphas_deg,
+            slopes_between,
         } = match case.aerodynamics.files() {
-            Some(files) => read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?,
+            Some(files) => {
+                let mut read =
+                    read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?;
+                if case.aerodynamics.lift_slopes == LiftSlopes::Lattice {
+                    let solved = solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?;
+                    same_strips(&read.strips[0], &solved.strips[0])?;
+                    read.slopes_between = solved.slopes_between;
+                }
+                read
+            }
             None => solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?,
         };
 
@@ -102,6 +115,7 @@ impl Inputs {
             derivatives,
             strips,
             strip_alphas_deg,
+            slopes_between,
             slope_table,
             longitudinal,
             notes,
@@ -136,6 +150,7 @@ struct Aerodynamics {
     derivatives: StabilityDerivatives,
     strips: [StripForces; 2],
     strip_alphas_deg: [f64; 2],
+    slopes_between: Option<Mat<f64>>,
 }
 
 fn read_aerodynamics(
@@ -155,6 +170,7 @@ fn read_aerodynamics(
             avl(&at(&high.file), StripForces::parse)?,
         ],
         strip_alphas_deg: [low.alpha_deg, high.alpha_deg],
+        slopes_between: None,
     })
 }
 
@@ -186,13 +202,46 @@ fn solve_aerodynamics(
             / (pressure * geometry.s_ref),
         control: flight.trim_control.clone(),
     };
-    let solved = lattice::solve(&lattice, &choice, &level, &file)?;
+    let with_slopes = case.aerodynamics.lift_slopes == LiftSlopes::Lattice;
+    let solved = lattice::solve(&lattice, &choice, &level, with_slopes, &file)?;
     notes.push(solved.note);
     Ok(Aerodynamics {
         geometry,
         derivatives: solved.derivatives,
         strips: solved.strips,
         strip_alphas_deg: choice.alphas_deg,
+        slopes_between: solved.slopes,
+    })
+}
+
+/// Refuses a geometry whose strips are not those of a strip file, to the four digits of the file.
+fn same_strips(file: &StripForces, lattice: &StripForces) -> Result<(), Error> {
+    let rows = |forces: &StripForces| -> Vec<(String, f64, f64)> {
+        let of = |s: &StripSurface| {
+            let row = |r: &Strip| (s.name.trim().to_owned(), r.y_le, r.chord);
+            s.strips.iter().map(row).collect::<Vec<_>>()
+        };
+        forces.surfaces.iter().flat_map(of).collect()
+    };
+    let (read, made) = (rows(file), rows(lattice));
+    let differ = |a: f64, b: f64| (a - b).abs() > 2e-4 * b.abs().max(1.0);
+    let pairs = read.iter().zip(&made);
+    let first = pairs.enumerate().find(|(_, (a, b))| a.0 != b.0 || differ(a.1, b.1) || differ(a.2, b.2));
+    let (found, expected) = match first {
+        Some((j, (a, b))) => (
+            format!("strip {} of `{}` at y = {} with chord {}", j + 1, a.0, a.1, a.2),
+            format!("`{}`, y = {:.4}, chord {:.4}", b.0, b.1, b.2),
+        ),
+        None if read.len() != made.len() => (
+            format!("{} strips", read.len()),
+            format!("{} strips", made.len()),
+        ),
+        None => return Ok(()),
+    };
+    Err(Error::Mismatch {
+        what: "strip file against the lattice of the geometry".into(),
+        found,
+        expected: format!("{expected}, as in the geometry; run AVL on that geometry, or set results = \"solve\""),
     })
 }
 

@@ -5,6 +5,7 @@ use crate::case::{AvlVersion, LatticeCase};
 use albatross_avl::geometry::Geometry;
 use albatross_avl::results::{StabilityDerivatives, StripForces};
 use albatross_avl::run::{RunTarget, RunVariable};
+use albatross_numerics::Mat;
 use albatross_vlm::{Condition, Lattice, Method, Solver, Trim};
 use std::path::Path;
 
@@ -101,11 +102,14 @@ pub struct LatticeResults {
     pub derivatives: StabilityDerivatives,
     /// Strip forces at the two incidences of the case, controls at zero.
     pub strips: [StripForces; 2],
+    /// `d(c c_l) / d(local incidence)` of every strip (rows) by the incidence of every strip (columns) \[m/rad\], in the
+    /// trimmed flow.
+    pub slopes: Option<Mat<f64>>,
     /// What was computed.
     pub note: String,
 }
 
-/// Solves the lattice once, and evaluates it in trim and at two incidences.
+/// Solves the lattice once, and evaluates it in trim and at two incidences; with lift slopes between strips if wanted.
 ///
 /// # Errors
 /// [`Error::Lattice`].
@@ -113,6 +117,7 @@ pub fn solve(
     lattice: &Lattice,
     choice: &LatticeCase,
     level: &Level,
+    with_slopes: bool,
     file: &Path,
 ) -> Result<LatticeResults, Error> {
     let method = choice.method(lattice);
@@ -125,9 +130,13 @@ pub fn solve(
             trim.set(lattice, &control, RunTarget::PitchMoment, 0.0)
         })
         .map_err(&wrong)?;
-    let derivatives = {
-        let solution = solver.trim(&trim).map_err(&wrong)?;
-        solution.stability_derivatives("trimmed by the lattice")
+    let trimmed = solver.trim(&trim).map_err(&wrong)?;
+    let derivatives = trimmed.stability_derivatives("trimmed by the lattice");
+    let slopes = if with_slopes {
+        let all: Vec<usize> = (0..lattice.strips.len()).collect();
+        Some(solver.strip_slopes(trimmed.condition(), &all).map_err(&wrong)?)
+    } else {
+        None
     };
     let at = |alpha_deg: f64| -> Result<StripForces, Error> {
         let condition = Condition::at_alpha_deg(alpha_deg, lattice);
@@ -144,6 +153,7 @@ pub fn solve(
     Ok(LatticeResults {
         derivatives,
         strips,
+        slopes,
         note,
     })
 }

@@ -11,8 +11,8 @@ use albatross_flight::{
     atmosphere, trim,
 };
 use albatross_modal::{Component, MassProperties, ModalBasis};
-use albatross_numerics::Mat;
-use albatross_strip::forces::generalized_forces;
+use albatross_numerics::{Mat, solve};
+use albatross_strip::forces::{generalized_forces, generalized_forces_between};
 use albatross_strip::kernels::JONES;
 use albatross_strip::quasi_steady::{
     AnalyticLift, ReferenceShape, StripLoads, analytic_lift, rigid_to_elastic,
@@ -254,20 +254,22 @@ fn assemble(
     let split = case.aerodynamics.split;
     let rigid_shapes = StripShapes::rigid_body(strips, form, mass.cg[0], mass.cg[2]);
     let q_0 = rigid_to_elastic(strips, &set.shapes, &at_zero, &reference)?;
+    let mut model =
+        AeroelasticModel::try_new(structure, strips.clone(), set.shapes.clone(), &theory, split, &JONES)?;
+    let rigid_rows = match &set.influence {
+        None => generalized_forces(strips, &rigid_shapes, &set.shapes, &theory, split)?,
+        Some(influence) => {
+            model = model.with_influence(influence, &theory, split)?;
+            generalized_forces_between(strips, influence, &rigid_shapes, &set.shapes, &theory, split)?
+        }
+    };
     let elastic = ElasticPart {
-        rigid_rows: generalized_forces(strips, &rigid_shapes, &set.shapes, &theory, split)?,
+        rigid_rows,
         q_x: rigid_to_elastic(strips, &set.shapes, &motion, &reference)?,
         q_u: rigid_to_elastic(strips, &set.shapes, &spread.loads, &reference)?,
         q_0: (0..q_0.nrows()).map(|k| q_0[(k, 0)]).collect(),
-        control_incidence: spread.incidence,
-        model: AeroelasticModel::try_new(
-            structure,
-            strips.clone(),
-            set.shapes.clone(),
-            &theory,
-            split,
-            &JONES,
-        )?,
+        control_incidence: incidence_of_equal_lift(set, spread.incidence)?,
+        model,
     };
     Ok(Aircraft {
         mass: mass.mass,
@@ -284,6 +286,18 @@ fn assemble(
             .map(|s| sensor(s, basis, mass))
             .collect::<Result<_, _>>()?,
     })
+}
+
+/// Incidence of the strips that lifts them as the controls do. Where strips act on each other, the lift of a control is
+/// given as it is, induced parts included: the incidence is solved for.
+fn incidence_of_equal_lift(set: &StripSet, own: Mat<f64>) -> Result<Mat<f64>, Error> {
+    let Some(influence) = &set.influence else {
+        return Ok(own);
+    };
+    let lift = Mat::from_fn(own.nrows(), own.ncols(), |j, c| {
+        set.strips[j].lift_factor() * own[(j, c)]
+    });
+    Ok(solve::solve(influence.as_ref(), lift.as_ref())?)
 }
 
 /// The moment point of the AVL run. The .st file prints it to five digits: the geometry file adds the rest where the

@@ -5,6 +5,7 @@ use crate::case::{LiftSlopes, SurfaceCase, VariantCase, grid_list};
 use crate::inputs::Inputs;
 use albatross_modal::{LoadReferenceAxis, ModalBasis, Station, StationShapes, interpolate};
 use albatross_numerics::Mat;
+use albatross_strip::forces::influence_of;
 use albatross_strip::slopes::{self, StripRecord, base_name};
 use albatross_strip::{Strip, StripShapes};
 
@@ -19,6 +20,8 @@ pub struct StripSet {
     pub shapes: StripShapes,
     /// Name of the load reference axis of each strip.
     pub lra: Vec<String>,
+    /// Lift of each strip (rows) per `rho V w` of each (columns) \[m²\], where strips act on each other.
+    pub influence: Option<Mat<f64>>,
     /// What was assumed on the way.
     pub notes: Vec<String>,
 }
@@ -36,11 +39,13 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
     let mut records = Vec::new();
     let mut lra = Vec::new();
     let mut gradients = Vec::new();
+    // Among all strips of the files.
+    let mut places = Vec::new();
     for surface in &aerodynamics.surfaces {
-        let own: Vec<StripRecord> = all
+        let own: Vec<(usize, &StripRecord)> = all
             .iter()
-            .filter(|r| base_name(&r.surface).eq_ignore_ascii_case(surface.name.trim()))
-            .cloned()
+            .enumerate()
+            .filter(|(_, r)| base_name(&r.surface).eq_ignore_ascii_case(surface.name.trim()))
             .collect();
         if own.is_empty() {
             let mut known: Vec<&str> = all.iter().map(|r| base_name(&r.surface)).collect();
@@ -51,12 +56,14 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
                 known: format!("{} (in {})", known.join(", "), aerodynamics.geometry),
             });
         }
-        for record in own {
-            lra.push(axis_of(surface, &record)?.to_owned());
+        for (place, record) in own {
+            lra.push(axis_of(surface, record)?.to_owned());
             gradients.push(surface.downwash_gradient);
-            records.push(record);
+            records.push(record.clone());
+            places.push(place);
         }
     }
+    let computed: Vec<f64> = records.iter().map(|r| r.cl_alpha).collect();
     if variant.corrections
         && let Some(table) = &inputs.slope_table
     {
@@ -78,13 +85,37 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
         [&stations.translation[1], &stations.translation[2]],
         [&stations.rotation[1], &stations.rotation[2]],
     )?;
+    let influence = inputs
+        .slopes_between
+        .as_ref()
+        .map(|slopes| influence(slopes, &places, &records, &computed, &strips));
     Ok(StripSet {
+        influence,
         records,
         strips,
         shapes,
         lra,
         notes,
     })
+}
+
+/// Influence of the strips on each other; rows follow the correction of the strip's lift slope.
+fn influence(
+    slopes: &Mat<f64>,
+    places: &[usize],
+    records: &[StripRecord],
+    computed: &[f64],
+    strips: &[Strip],
+) -> Mat<f64> {
+    let chosen = Mat::from_fn(records.len(), records.len(), |j, i| {
+        let correction = if computed[j] == 0.0 {
+            1.0
+        } else {
+            records[j].cl_alpha / computed[j]
+        };
+        correction * slopes[(places[j], places[i])]
+    });
+    influence_of(strips, &chosen)
 }
 
 /// The load reference axis that a strip belongs to.
@@ -110,7 +141,8 @@ fn own_slopes(
     notes: &mut Vec<String>,
 ) -> Result<Vec<f64>, Error> {
     match inputs.case.aerodynamics.lift_slopes {
-        LiftSlopes::Avl => Ok(records
+        // Between strips, the slopes of the surfaces in the aircraft's incidence serve the rigid loads only.
+        LiftSlopes::Avl | LiftSlopes::Lattice => Ok(records
             .iter()
             .zip(gradients)
             .map(|(r, e)| r.cl_alpha / (1.0 - e))

@@ -242,6 +242,8 @@ pub enum LiftSlopes {
     Avl,
     /// `2 pi` with the Prandtl-Glauert rule on `M cos(sweep)`; the rigid loads stay AVL's.
     PrandtlGlauert,
+    /// Between all strips, from a vortex lattice of the geometry: the incidence of one strip lifts the others too.
+    Lattice,
 }
 
 /// Options of the lattice that takes AVL's place.
