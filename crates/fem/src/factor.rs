@@ -153,7 +153,7 @@ impl Factor<'_> {
     /// the scaled matrix, whose smallest eigenvalue is then rounding noise.
     pub(crate) fn null_motion(&self, a: &Symmetric) -> Option<usize> {
         const NOISE: f64 = 1e-14;
-        let mut x = crate::pencil::random_block(a.order(), 1);
+        let mut x = crate::pencil::random_block(a.order(), 1, 0);
         for _ in 0..3 {
             // With y = S^-1 x the iteration on S A S is x -> A^-1 S^-2 x.
             for (v, s) in x.col_mut(0).iter_mut().zip(&self.scale) {

@@ -10,15 +10,18 @@
 //! mass are purged because every basis block, and every result, is a product of the operator.
 
 use albatross_numerics::faer::linalg::matmul::matmul;
+use albatross_numerics::faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use albatross_numerics::faer::{Accum, MatRef, Par, Side};
 use albatross_numerics::Mat;
 
 use crate::error::Error;
 use crate::factor::Factor;
+use crate::pencil::random_block;
 use crate::sparse::Symmetric;
 
-/// Relative residual of theta at which a pair has converged. The error of theta is its square over the gap.
-const TOLERANCE: f64 = 1e-10;
+/// Relative residual of theta at which a pair has converged. The error of theta is its square over the gap, and the
+/// last product of the operator takes more off the error of the vector.
+const TOLERANCE: f64 = 1e-8;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
@@ -72,15 +75,20 @@ pub(crate) fn lowest(
     };
     let (mut block, _) = krylov.orthonormalise(start);
     let mut steps = 0;
-    let mut next_check = count.min(2 * block_size);
+    let mut next_check = count + count / 2;
     loop {
         let first = krylov.size;
         krylov.append(&block);
-        let (next, coupling) = krylov.advance(first);
+        let (mut next, mut coupling) = krylov.advance(first);
         steps += 1;
+        if next.ncols() == 0 && krylov.size < n {
+            // The basis is invariant; what it lacks is found from another start.
+            next = krylov.fresh(block_size, steps);
+            coupling = Mat::zeros(next.ncols(), krylov.size - first);
+        }
         let exhausted = next.ncols() == 0 || krylov.size >= n;
         if exhausted || krylov.size >= next_check {
-            next_check = krylov.size + block_size.max(krylov.size / 8);
+            next_check = krylov.size + (2 * block_size).max(krylov.size / 8);
             let (theta, vectors) = krylov.ritz()?;
             let converged = converged_count(&theta, &vectors, &coupling, first, exhausted);
             let lambda = |k: usize| sigma + 1.0 / theta[k];
@@ -155,6 +163,22 @@ impl Krylov<'_> {
 
     fn vectors(&self) -> MatRef<'_, f64> {
         self.basis.as_ref().subcols(0, self.size)
+    }
+
+    /// A block outside the basis; empty if the basis holds every motion with mass.
+    fn fresh(&self, columns: usize, seed: usize) -> Mat<f64> {
+        let mut w = self.operator(&random_block(self.mass.order(), columns, seed as u64));
+        let before = self.gram(w.clone()).1;
+        for _ in 0..2 {
+            self.remove_basis(&mut w);
+        }
+        let (next, after) = self.orthonormalise(w);
+        // Rounding of what was removed is no new direction.
+        if after.norm_max() > 1e-11 * before.norm_max() {
+            next
+        } else {
+            Mat::zeros(next.nrows(), 0)
+        }
     }
 
     fn append(&mut self, block: &Mat<f64>) {
@@ -255,6 +279,14 @@ impl Krylov<'_> {
             let mass: f64 = x.col(k).iter().zip(mx.col(k).iter()).map(|(a, b)| a * b).sum();
             let scale = if mass > 0.0 { 1.0 / mass.sqrt() } else { 1.0 / theta[k] };
             x.col_mut(k).iter_mut().for_each(|v| *v *= scale);
+        }
+        // The product magnifies what rounding left of lower modes in higher ones; with X^T M X = L L^T, X L^-T takes
+        // it out and leaves the lower ones as they are.
+        let gram = x.transpose() * self.mass.apply_columns(&x);
+        if let Ok(l) = gram.llt(Side::Lower) {
+            let mut rows = x.transpose().to_owned();
+            solve_lower_triangular_in_place(l.L(), rows.as_mut(), Par::Seq);
+            return rows.transpose().to_owned();
         }
         x
     }

@@ -207,16 +207,26 @@ fn projected(a: &Symmetric, r: &Mat<f64>) -> Mat<f64> {
 /// Lowest modes of a small pencil: with K - sigma M = L L^T, `L^-1 M L^-T y = theta y`. M may be singular.
 fn dense_modes(k: &Mat<f64>, m: &Mat<f64>, count: usize) -> Result<Pairs, Error> {
     let n = k.nrows();
+    let mut ratios: Vec<f64> = (0..n).filter(|&i| m[(i, i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]).collect();
+    ratios.sort_by(f64::total_cmp);
+    let size = ratios.first().copied().ok_or_else(|| Error::EmptyModel {
+        problem: "the reduced model has no mass; add freedoms that carry mass to the set".into(),
+    })?;
+    // Shifts far above the lowest eigenvalues lose their digits: a second round with what the first found.
+    let rough = shifted_dense(k, m, -size.max(f64::MIN_POSITIVE), count.max(8))?;
+    let elastic = rough.eigenvalues.get(7.min(rough.eigenvalues.len().saturating_sub(1))).copied();
+    match elastic.filter(|&l| l > 0.0 && l < 0.5 * size) {
+        Some(lambda) => shifted_dense(k, m, -0.3 * lambda, count),
+        None => shifted_dense(k, m, -size.max(f64::MIN_POSITIVE), count),
+    }
+}
+
+fn shifted_dense(k: &Mat<f64>, m: &Mat<f64>, sigma: f64, count: usize) -> Result<Pairs, Error> {
+    let n = k.nrows();
     let failed = |reason: String| Error::Factorisation {
         what: "reduced stiffness matrix",
         reason,
     };
-    let mut ratios: Vec<f64> = (0..n).filter(|&i| m[(i, i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]).collect();
-    ratios.sort_by(f64::total_cmp);
-    let size = ratios.get(ratios.len() / 4).copied().ok_or_else(|| Error::EmptyModel {
-        problem: "the reduced model has no mass; add freedoms that carry mass to the set".into(),
-    })?;
-    let sigma = -1e-3 * size.max(f64::MIN_POSITIVE);
     let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] - sigma * m[(i, j)]);
     let factor = shifted.llt(Side::Lower).map_err(|e| failed(format!("{e:?}")))?;
     let mut c = m.to_owned();

@@ -74,7 +74,7 @@ fn val_rbe3_with_um_is_the_same_relation() {
                 CONM2,9,9,,30.\n,1.,,1.,,,1.\nSPC1,1,123456,1";
     let plain = frequencies(&format!("{base}\nRBE3,5,,9,123456,1.,123,2,3,4"), 10);
     let um = frequencies(
-        &format!("{base}\nRBE3,5,,9,123456,1.,123,2,3,4\n,UM,2,123,3,12,4,3"),
+        &format!("{base}\nRBE3,5,,9,123456,1.,123,2,3,4\n,UM,2,123,3,13,4,3"),
         10,
     );
     same(&um, &plain, 1e-8);
@@ -99,6 +99,7 @@ fn val_bush_at_an_offset() {
     for (c, k) in k.iter().enumerate() {
         springs += &format!("CELAS2,{},{k:e},13,{},14,{}\n", 20 + c, c + 1, c + 1);
     }
+    println!("{bush:?}\n{:?}", frequencies(&springs, 12));
     same(&bush, &frequencies(&springs, 12), 1e-9);
 }
 
