@@ -1,5 +1,8 @@
 //! The surrogate aircraft of 5274 vortices: each stage, and its rate against that of this machine's matrix product.
 
+#![allow(clippy::unwrap_used, reason = "a bench stops where it fails")]
+#![allow(clippy::print_stdout, reason = "rates beside the times")]
+
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use albatross_avl::geometry::Body;
+use albatross_avl::geometry::{Body, CoreRadii};
 use albatross_numerics::interp::{Interpolant, Method};
 
 use crate::airfoil::{outline_stations, read_points};
@@ -16,7 +16,7 @@ use crate::lattice::{Files, Lattice, V3};
 use crate::spacing::points;
 use crate::units::onset;
 
-/// Core radius of a source line over its mean radius.
+/// Core radius of a source line over its mean radius, where the geometry file does not set it.
 const CORE: f64 = 1.0;
 
 /// A body as a chain of nodes.
@@ -28,6 +28,8 @@ pub struct LatticeBody {
     pub nodes: Vec<V3>,
     /// Radius of the circle of equal area at each node.
     pub radii: Vec<f64>,
+    /// Core radius of the source lines over their mean radius; negative: over their length.
+    pub core_fraction: f64,
 }
 
 /// One segment between two nodes.
@@ -43,7 +45,12 @@ pub(crate) struct Segment {
 
 impl LatticeBody {
     /// The nodes of a body; `None`, with a remark, where its file is not there.
-    pub(crate) fn new(body: &Body, files: &Files<'_>, remarks: &mut Vec<String>) -> Result<Option<Self>> {
+    pub(crate) fn new(
+        body: &Body,
+        core: Option<CoreRadii>,
+        files: &Files<'_>,
+        remarks: &mut Vec<String>,
+    ) -> Result<Option<Self>> {
         let name = body.name.trim().to_owned();
         let refuse = |problem: String| Error::Body {
             body: name.clone(),
@@ -90,8 +97,19 @@ impl LatticeBody {
             let place = V3::new(x * sx, y.eval(x) * sy, z.eval(x) * sz) + translate;
             (place, (sy * sz).abs().sqrt() * radius.eval(x))
         };
-        let (nodes, radii) = fractions.iter().map(at).unzip();
-        Ok(Some(Self { name, nodes, radii }))
+        let (nodes, radii): (Vec<V3>, Vec<f64>) = fractions.iter().map(at).unzip();
+        let apart = |w: &[V3]| (w[1] - w[0]).norm() > 0.0 && w[1].iter().all(|v| v.is_finite());
+        if !nodes.windows(2).all(apart) || !radii.iter().all(|r| r.is_finite()) {
+            return Err(refuse(
+                "two of its nodes coincide: give scales that are not zero".to_owned(),
+            ));
+        }
+        Ok(Some(Self {
+            name,
+            nodes,
+            radii,
+            core_fraction: core.map_or(CORE, |c| c.source_fraction),
+        }))
     }
 
     /// Mirrored in the plane y = `y_plane`.
@@ -104,6 +122,7 @@ impl LatticeBody {
                 .map(|p| V3::new(p.x, 2.0 * y_plane - p.y, p.z))
                 .collect(),
             radii: self.radii.clone(),
+            core_fraction: self.core_fraction,
         }
     }
 
@@ -127,7 +146,11 @@ impl LatticeBody {
                 middle: (p[0] + p[1]) * 0.5,
                 area_change: b - a,
                 mean_area: 0.5 * (a + b),
-                core: CORE * 0.5 * (r[0] + r[1]),
+                core: if self.core_fraction < 0.0 {
+                    -self.core_fraction * (p[1] - p[0]).norm()
+                } else {
+                    self.core_fraction * 0.5 * (r[0] + r[1])
+                },
             }
         })
     }

@@ -321,7 +321,7 @@ impl Solver<'_> {
             x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
             for (variable, value) in [("alpha", x[0]), ("beta", x[1])] {
                 let value_deg = value.to_degrees();
-                if !(value_deg.abs() <= ANGLE_LIMIT_DEG) {
+                if value_deg.is_nan() || value_deg.abs() > ANGLE_LIMIT_DEG {
                     return Err(Error::TrimOutOfRange {
                         variable,
                         value_deg,

@@ -64,7 +64,7 @@ impl Lattice {
             return Err(Error::NoSurfaces { title: lattice.title });
         }
         for body in &geometry.bodies {
-            if let Some(own) = LatticeBody::new(body, files, &mut remarks)? {
+            if let Some(own) = LatticeBody::new(body, geometry.core, files, &mut remarks)? {
                 let image = body.y_duplicate.filter(|_| geometry.i_ysym == 0);
                 let image = image.map(|y| own.mirrored(y));
                 lattice.bodies.push(own);

@@ -4,6 +4,8 @@ use albatross_avl::geometry::Geometry;
 use albatross_avl::run::{RunTarget, RunVariable};
 use albatross_vlm::{Condition, Error, Lattice, Method, Solver, Trim};
 
+use proptest::prelude::*;
+
 use crate::models::{aircraft, header, lattice, surface};
 
 fn refused(body: &str) -> Error {
@@ -95,4 +97,44 @@ fn regress_bad_requests() {
         ),
         "{error:?}"
     );
+}
+
+/// Numbers that make geometries degenerate.
+fn hostile() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        Just(0.0),
+        Just(1.0),
+        Just(-1.0),
+        Just(1e-30),
+        Just(1e30),
+        Just(1e300),
+        -3.0..3.0_f64
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Any geometry is solved to finite numbers or refused.
+    #[test]
+    fn prop_hostile_geometry_never_panics(
+        v in prop::collection::vec(hostile(), 12), n_chord in 0_usize..4, n_span in 0_usize..5,
+        spacing in -4.0..4.0_f64, duplicate in any::<bool>(), symmetry in -1..2_i32,
+    ) {
+        let keywords = if duplicate { "YDUPLICATE\n0" } else { "" };
+        let section = |k: usize| format!(
+            "{} {} {} {} {}\nCONTROL\nflap {} {} 0 0 0 1\nCLAF\n{}", v[k], v[k + 1], v[k + 2], v[k + 3], v[k + 4],
+            v[k + 5], v[(k + 6) % 12], v[(k + 7) % 12],
+        );
+        let text = header(&format!("{symmetry} 0 0"), 6.0, 1.0, 6.0, 0.25)
+            + &surface("w", &format!("{n_chord} {spacing} {n_span} {spacing}"), keywords, &[&section(0), &section(6)]);
+        let Ok((geometry, _)) = Geometry::parse(&text, "hostile.avl") else { return Ok(()) };
+        let Ok((lattice, _)) = Lattice::new(&geometry, &|_| None) else { return Ok(()) };
+        let Ok(solver) = Solver::new(&lattice, &Method::AVL_332, 0.3) else { return Ok(()) };
+        let mut condition = Condition::at_alpha_deg(3.0, &lattice);
+        condition.beta_rad = 0.1;
+        let Ok(solution) = solver.solve(&condition) else { return Ok(()) };
+        let _ = (solution.stability_derivatives(""), solution.strip_forces(), solution.element_forces());
+        let _ = solver.trim(&Trim::new(&lattice));
+    }
 }
