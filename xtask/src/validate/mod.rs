@@ -9,6 +9,7 @@
 //! | [`study`] | the computation |
 //! | [`identification`] | transfer functions identified from the reference's histories |
 //! | [`mod@reference`], [`paper`] | what it is compared with |
+//! | [`solved`] | the same case from deck and geometry alone |
 //! | [`tables`], [`fits`], [`account`], [`figures`] | what is shown |
 //! | [`page`] | the page and the provenance of its inputs |
 //! | [`check`] | comparison of two directories of results |
@@ -21,6 +22,7 @@ mod identification;
 mod page;
 mod paper;
 mod reference;
+mod solved;
 mod study;
 mod tables;
 
@@ -116,6 +118,12 @@ impl Results {
         study
             .measured
             .stage("experiments on the difference to the reference", since);
+        let since = Instant::now();
+        let solved = solved::run(root, &study)?;
+        study.measured.stage(
+            "the case from deck and geometry alone, twice, and lift between strips",
+            since,
+        );
         let (kept, kept_files) = if search {
             search::run(root, &study)?
         } else {
@@ -133,10 +141,11 @@ impl Results {
         tables.extend(fits::all(&study)?);
         tables.extend(account.tables.iter().cloned());
         tables.extend(identification.tables(&study)?);
+        tables.extend(solved.tables.iter().cloned());
         let figures = figures::all(&study, &identification)?;
         let mut files = vec![(
             "README.md".to_owned(),
-            page::write(&study, &account, &identification, &tables, &figures)?,
+            page::write(&study, &account, &identification, &solved, &tables, &figures)?,
         )];
         for named in &tables {
             files.push((format!("{}.csv", named.stem), named.table.to_csv()));

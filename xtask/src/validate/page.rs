@@ -9,6 +9,7 @@ use super::figures::Figure;
 use super::fits;
 use super::identification::{Identification, search, text};
 use super::reference::MANOEUVRES;
+use super::solved::Solved;
 use super::study::{AVL, CORRECTED, Study, VARIANTS, control_index};
 use super::tables::{self, Named};
 use crate::error::Error;
@@ -145,6 +146,7 @@ pub(crate) fn write(
     study: &Study,
     account: &Account,
     identification: &Identification,
+    solved: &Solved,
     tables: &[Named],
     figures: &[Figure],
 ) -> Result<String, Error> {
@@ -160,6 +162,7 @@ pub(crate) fn write(
     identified(&mut parts, study, identification)?;
     frequency_domain(&mut parts)?;
     modes(&mut parts, study)?;
+    without_files(&mut parts, solved)?;
     cost(&mut parts)?;
     Ok(parts.page.finish())
 }
@@ -338,7 +341,7 @@ fn reasons(parts: &mut Parts<'_>, study: &Study, account: &Account) -> Result<()
             short_period(account, RATE),
         ),
         format!(
-            "**Static aeroelasticity: most of the rest at 0.5 Hz.** Strips do not act on each other: when the wing washes \
+            "**Static aeroelasticity: most of the rest at 0.5 Hz.** Strips with one slope each do not act on each other: when the wing washes \
              out, its downwash at the tail stays what it was, and the slopes of the tail's strips hold the wing's downwash \
              for the tail's own motion as well. With the reference's static derivatives alone the model reaches {}; with \
              both, {} and {}.",
@@ -470,6 +473,50 @@ fn modes(parts: &mut Parts<'_>, study: &Study) -> Result<(), Error> {
         .paragraph("Mean absolute differences of the twenty frequencies:")
         .bullets(differences.iter().map(String::as_str));
     parts.table("rigid_body_modes")
+}
+
+/// The case from deck and geometry alone.
+fn without_files(parts: &mut Parts<'_>, solved: &Solved) -> Result<(), Error> {
+    let Solved {
+        worst,
+        means,
+        damping_means,
+        ..
+    } = solved;
+    parts
+        .page
+        .heading(2, "Without files of other programs")
+        .paragraph(
+            "The same case with `results = \"solve\"` for the structure and for the aerodynamics: Albatross' finite elements \
+             take the deck, its vortex lattice takes the geometry.",
+        );
+    parts.table("solved_quantities")?;
+    parts.table("solved_structural_modes")?;
+    parts.table("solved_aeroelastic_modes")?;
+    parts.table("solved_fits")?;
+    parts.page.bullets([
+        format!(
+            "**The deck's modes**: all twenty frequencies within {:.1e} of MYSTRAN's and {:.1e} of NASTRAN-95's, shapes with \
+             MAC above {:.7}.",
+            worst.mystran,
+            worst.nastran95,
+            1.0 - worst.mac.max(1e-7)
+        ),
+        format!(
+            "**The flight**: trimmed incidence within {:.0e} deg, short period within {:.4} %, modes in the flow within \
+             {:.4} % of those from files.",
+            worst.alpha_deg, worst.short_period_percent, worst.in_flow_percent
+        ),
+        format!(
+            "**Lift between strips**: frequencies in the flow differ from the reference's by {:.2} % on average with one \
+             slope a strip, by {:.2} % with lift between strips; damping ratios by {:.4} and {:.4}. The reference is a \
+             doublet lattice, whose strips act on each other too, so that this tests the strips, not lattices.",
+            means[0], means[1], damping_means[0], damping_means[1]
+        ),
+    ]
+    .iter()
+    .map(String::as_str));
+    Ok(())
 }
 
 fn cost(parts: &mut Parts<'_>) -> Result<(), Error> {

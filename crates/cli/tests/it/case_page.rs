@@ -69,13 +69,23 @@ fn val_every_key_is_documented() {
         ("`[bode]`", "[bode]\n"),
     ] {
         // The second table of a section (quantities) has choices in its first column.
-        let documented: Names = rows(section(&text, heading))
+        let own = section(&text, heading).split("\n### ").next().unwrap();
+        let documented: Names = rows(own)
             .into_iter()
             .map(|(key, _)| key)
             .filter(|key| !key.starts_with('"'))
             .collect();
         assert_eq!(documented, keys(place), "{heading}");
     }
+    let inline = expected(&answer(
+        "[flight]\n",
+        "[aerodynamics.lattice]\nnot_a_key = 0\n\n[flight]\n",
+    ));
+    let lattice = section(&text, "`[aerodynamics]`").split("### ").nth(1).unwrap();
+    assert_eq!(
+        rows(lattice).into_iter().map(|(key, _)| key).collect::<Names>(),
+        inline
+    );
     let reference = expected(&answer("[flight]\n", "[reference]\nnot_a_key = 0\n\n[flight]\n"));
     let documented: Names = rows(section(&text, "`[reference]`"))
         .into_iter()

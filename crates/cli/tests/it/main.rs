@@ -6,6 +6,7 @@ mod case_page;
 mod formats_page;
 mod identify;
 mod options;
+mod solvers;
 mod support;
 
 // The messages hold texts of the operating system.
