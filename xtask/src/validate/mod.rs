@@ -114,16 +114,16 @@ impl Results {
     fn compute(root: &Path, search: bool) -> Result<Self, Error> {
         let mut study = Study::run(root)?;
         let since = Instant::now();
-        let account = account::run(&study)?;
-        study
-            .measured
-            .stage("experiments on the difference to the reference", since);
-        let since = Instant::now();
         let solved = solved::run(root, &study)?;
         study.measured.stage(
             "the case from deck and geometry alone, twice, and lift between strips",
             since,
         );
+        let since = Instant::now();
+        let account = account::run(&study, &solved)?;
+        study
+            .measured
+            .stage("experiments on the difference to the reference", since);
         let (kept, kept_files) = if search {
             search::run(root, &study)?
         } else {

@@ -10,6 +10,7 @@ use albatross::case::{LiftSlopes, SOLVE};
 use albatross::inputs::read_results;
 use albatross::lti::Mode;
 use albatross::modal::{ModalBasis, mac};
+use albatross::numerics::Mat;
 use albatross::report::{Cell, Column, Format, Table};
 use albatross::{Inputs, Model};
 use std::path::Path;
@@ -40,6 +41,8 @@ impl Run {
 /// What is shown of it.
 pub(crate) struct Solved {
     pub(crate) tables: Vec<Named>,
+    /// Lift slopes between all strips.
+    pub(crate) slopes: Option<Mat<f64>>,
     /// Greatest differences: of the twenty frequencies against each printed solution, of 1 - MAC, of the trimmed
     /// incidence \[deg\], of the frequencies in the flow.
     pub(crate) worst: Worst,
@@ -94,6 +97,7 @@ pub(crate) fn run(root: &Path, study: &Study) -> Result<Solved, Error> {
             Named::new("solved_aeroelastic_modes", in_flow),
             Named::new("solved_fits", fits(study, &solved, &coupled)?),
         ],
+        slopes: between.slopes_between,
         worst,
         means,
         damping_means,

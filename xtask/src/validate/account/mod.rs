@@ -1,18 +1,20 @@
 //! Where the difference to the reference comes from.
 //!
-//! Experiments on the corrected model, none of which is an option of the program or a tuning: the linear model is given,
-//! one after the other, what the reference's own description says the model lacks, and flown again.
+//! Experiments on the corrected model, none of which is a tuning: the model is given, one after the other, what the
+//! reference's own description says it lacks, and flown again.
 //!
 //! - **Derivatives with `d(alpha)/dt`.** The rigid aircraft's aerodynamics is quasi-steady in Albatross as in the paper;
 //!   the reference's low-frequency `CL_alphadot` and `Cm_alphadot` are its first unsteady term.
 //! - **Static aeroelastic derivatives.** With the elastic motion in equilibrium, the flexible aircraft has derivatives
 //!   of its own. What the model's lack to the reference's is the joint effect of modes beyond the twentieth and of
 //!   coupling between wing and tail that strip theory does not have.
+//! - **Lift between strips**, which is an option of the program.
 
 mod linear;
 mod static_derivatives;
 
 use super::reference::{MANOEUVRES, QUANTITIES};
+use super::solved::Solved;
 use super::study::{CORRECTED, Flight, STEP, Study, Variant};
 use super::tables::Named;
 use crate::error::Error;
@@ -47,8 +49,8 @@ pub(crate) struct Account {
 }
 
 /// Runs the experiments.
-pub(crate) fn run(study: &Study) -> Result<Account, Error> {
-    let experiments = experiments(study)?;
+pub(crate) fn run(study: &Study, solved: &Solved) -> Result<Account, Error> {
+    let experiments = experiments(study, solved)?;
     let tables = vec![
         Named::new("account_static_derivatives", static_table(study)?),
         Named::new("account_elevator_rate", elevator_rate_table(study)?),
@@ -70,7 +72,10 @@ pub(crate) const OWN_TAIL: &str = "corrected, tail strips without the wing's dow
 pub(crate) const LAGGED_OWN_TAIL: &str =
     "corrected, lagged elevator, tail strips without the wing's downwash";
 
-fn experiments(study: &Study) -> Result<Vec<Experiment>, Error> {
+pub(crate) const BETWEEN: &str = "corrected, lift between strips";
+pub(crate) const LAGGED_BETWEEN: &str = "corrected, lagged elevator, lift between strips";
+
+fn experiments(study: &Study, solved: &Solved) -> Result<Vec<Experiment>, Error> {
     let reference = &study.reference;
     let corrected = study.variant(CORRECTED)?;
     let lagged = study.variant(LAGGED)?;
@@ -110,6 +115,12 @@ fn experiments(study: &Study) -> Result<Vec<Experiment>, Error> {
         variation(study, OWN_TAIL, "corrected", |inputs| own_tail(study, inputs))?,
         variation(study, LAGGED_OWN_TAIL, "corrected_lagged", |inputs| {
             own_tail(study, inputs)
+        })?,
+        variation(study, BETWEEN, "corrected", |inputs| {
+            inputs.slopes_between = solved.slopes.clone();
+        })?,
+        variation(study, LAGGED_BETWEEN, "corrected_lagged", |inputs| {
+            inputs.slopes_between = solved.slopes.clone();
         })?,
     ])
 }
