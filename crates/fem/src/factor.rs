@@ -170,7 +170,10 @@ impl Factor<'_> {
         if energy.abs() > NOISE * size {
             return None;
         }
-        let largest = scaled().map(f64::abs).enumerate().max_by(|p, q| p.1.total_cmp(&q.1));
+        let largest = scaled()
+            .map(f64::abs)
+            .enumerate()
+            .max_by(|p, q| p.1.total_cmp(&q.1));
         largest.map(|(i, _)| i)
     }
 

@@ -9,10 +9,10 @@
 //! is kept M-orthonormal against all earlier blocks by two Gram-Schmidt passes. M may be singular: vectors without
 //! mass are purged because every basis block, and every result, is a product of the operator.
 
+use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;
 use albatross_numerics::faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use albatross_numerics::faer::{Accum, MatRef, Par, Side};
-use albatross_numerics::Mat;
 
 use crate::error::Error;
 use crate::factor::Factor;
@@ -45,6 +45,8 @@ pub(crate) struct Pairs {
 /// A block iteration: the basis so far and the projected operator.
 struct Krylov<'a> {
     factor: &'a Factor<'a>,
+    stiffness: &'a Symmetric,
+    sigma: f64,
     mass: &'a Symmetric,
     /// Columns in use: `size`.
     basis: Mat<f64>,
@@ -56,7 +58,7 @@ struct Krylov<'a> {
 /// `start`: vectors to begin with, a product of the operator. Their number is the block size.
 pub(crate) fn lowest(
     factor: &Factor<'_>,
-    mass: &Symmetric,
+    (stiffness, mass): (&Symmetric, &Symmetric),
     sigma: f64,
     start: Mat<f64>,
     wanted: Wanted,
@@ -68,6 +70,8 @@ pub(crate) fn lowest(
     };
     let mut krylov = Krylov {
         factor,
+        stiffness,
+        sigma,
         mass,
         basis: Mat::zeros(n, (2 * count.min(200) + 6 * block_size).min(n + block_size)),
         size: 0,
@@ -203,8 +207,7 @@ impl Krylov<'_> {
             h += self.remove_basis(&mut w);
         }
         for j in 0..w.ncols() {
-            self.projected
-                .push((0..=first + j).map(|i| h[(i, j)]).collect());
+            self.projected.push((0..=first + j).map(|i| h[(i, j)]).collect());
         }
         self.orthonormalise(w)
     }
@@ -214,7 +217,14 @@ impl Krylov<'_> {
         let mw = self.mass.apply_columns(w);
         let mut h = Mat::zeros(self.size, w.ncols());
         let v = self.vectors();
-        matmul(h.as_mut(), Accum::Replace, v.transpose(), mw.as_ref(), 1.0, Par::Seq);
+        matmul(
+            h.as_mut(),
+            Accum::Replace,
+            v.transpose(),
+            mw.as_ref(),
+            1.0,
+            Par::Seq,
+        );
         matmul(w.as_mut(), Accum::Add, v, h.as_ref(), -1.0, Par::Seq);
         h
     }
@@ -247,9 +257,29 @@ impl Krylov<'_> {
         let (g, u) = (eigen.S(), eigen.U());
         // Noise: relative to this block, and to what the operator makes of a unit vector.
         let largest = (0..b).fold(0.0_f64, |m, k| m.max(g[k]));
-        let scale = self.projected.first().and_then(|c| c.first()).copied().unwrap_or(0.0);
-        let floor = (1e-20 * largest).max((1e-13 * scale).powi(2)).max(f64::MIN_POSITIVE);
-        let kept: Vec<usize> = (0..b).rev().filter(|&k| g[k] > floor).collect();
+        let scale = self
+            .projected
+            .first()
+            .and_then(|c| c.first())
+            .copied()
+            .unwrap_or(0.0);
+        let floor = (1e-20 * largest)
+            .max((1e-13 * scale).powi(2))
+            .max(f64::MIN_POSITIVE);
+        let mut kept: Vec<usize> = (0..b).rev().filter(|&k| g[k] > floor).collect();
+        if kept.iter().any(|&k| g[k] < (1e-6 * scale).powi(2)) {
+            // What little is left may be rounding without mass: its Rayleigh quotient tells.
+            let directions = Mat::from_fn(b, kept.len(), |i, j| u[(i, kept[j])]);
+            let x = &w * &directions;
+            let kx = self.stiffness.apply_columns(&x);
+            let massive = |j: usize| {
+                let strain: f64 = x.col(j).iter().zip(kx.col(j).iter()).map(|(x, k)| x * k).sum();
+                let mass = g[kept[j]];
+                mass > 1e-12 * scale * (strain - self.sigma * mass)
+            };
+            let sound: Vec<usize> = (0..kept.len()).filter(|&j| massive(j)).map(|j| kept[j]).collect();
+            kept = sound;
+        }
         let left = Mat::from_fn(b, kept.len(), |i, j| u[(i, kept[j])] / g[kept[j]].sqrt());
         let right = Mat::from_fn(kept.len(), b, |i, j| u[(j, kept[i])] * g[kept[i]].sqrt());
         (&w * &left, right)
@@ -277,7 +307,11 @@ impl Krylov<'_> {
         let mx = self.mass.apply_columns(&x);
         for k in 0..x.ncols() {
             let mass: f64 = x.col(k).iter().zip(mx.col(k).iter()).map(|(a, b)| a * b).sum();
-            let scale = if mass > 0.0 { 1.0 / mass.sqrt() } else { 1.0 / theta[k] };
+            let scale = if mass > 0.0 {
+                1.0 / mass.sqrt()
+            } else {
+                1.0 / theta[k]
+            };
             x.col_mut(k).iter_mut().for_each(|v| *v *= scale);
         }
         // The product magnifies what rounding left of lower modes in higher ones; with X^T M X = L L^T, X L^-T takes
@@ -296,13 +330,15 @@ impl Krylov<'_> {
 /// lowest eigenvalues, ascending (upper bounds).
 pub(crate) fn subspace(
     factor: &Factor<'_>,
-    mass: &Symmetric,
+    (stiffness, mass): (&Symmetric, &Symmetric),
     sigma: f64,
     start: Mat<f64>,
     steps: usize,
 ) -> Result<(Mat<f64>, Vec<f64>), Error> {
     let mut krylov = Krylov {
         factor,
+        stiffness,
+        sigma,
         mass,
         basis: Mat::zeros(mass.order(), 0),
         size: 0,

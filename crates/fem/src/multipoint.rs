@@ -126,7 +126,11 @@ impl Collector<'_> {
         };
         for (freedom, row) in dependent {
             let coefficients = row * inverse;
-            let terms = independent.iter().zip(coefficients.iter()).map(|(r, &c)| (r.0, c)).collect();
+            let terms = independent
+                .iter()
+                .zip(coefficients.iter())
+                .map(|(r, &c)| (r.0, c))
+                .collect();
             self.push(name, id, freedom, terms);
         }
         Ok(())
@@ -212,7 +216,8 @@ impl Collector<'_> {
         };
         if lead == 0.0 || !terms.iter().all(|t| t.1.is_finite()) {
             return Err(bad(
-                "its first coefficient is zero, or one is not finite; the first term is the dependent one".into(),
+                "its first coefficient is zero, or one is not finite; the first term is the dependent one"
+                    .into(),
             ));
         }
         let terms = others.iter().map(|&(j, c)| (j, -c / lead)).collect();
@@ -310,7 +315,12 @@ fn resolved(
     }
     let waits: Vec<Vec<usize>> = relations
         .iter()
-        .map(|r| r.terms.iter().filter_map(|t| by_dependent.get(&t.0).copied()).collect())
+        .map(|r| {
+            r.terms
+                .iter()
+                .filter_map(|t| by_dependent.get(&t.0).copied())
+                .collect()
+        })
         .collect();
     let mut waiters: Vec<Vec<usize>> = vec![Vec::new(); relations.len()];
     for (i, needed) in waits.iter().enumerate() {
@@ -344,7 +354,12 @@ fn resolved(
             }
         }
     }
-    if let Some(r) = relations.iter().zip(&done).find(|(_, d)| d.is_none()).map(|(r, _)| r) {
+    if let Some(r) = relations
+        .iter()
+        .zip(&done)
+        .find(|(_, d)| d.is_none())
+        .map(|(r, _)| r)
+    {
         return Err(context.bad_constraint(
             r.name,
             r.id,
