@@ -96,9 +96,9 @@ impl Transform {
             of[r.dependent] = Some(&r.terms);
         }
         let mut free = Vec::new();
-        for i in 0..count {
-            if fates[i] == Fate::Held && !held.contains(&i) {
-                fates[i] = Fate::Free(free.len());
+        for (i, fate) in fates.iter_mut().enumerate() {
+            if *fate == Fate::Held && !held.contains(&i) {
+                *fate = Fate::Free(free.len());
                 free.push(i);
             }
         }
@@ -108,12 +108,12 @@ impl Transform {
             free,
             fates,
         };
-        for i in 0..count {
+        for (i, relation) in of.into_iter().enumerate() {
             match transform.fates[i] {
                 Fate::Free(k) => transform.terms.push((k, 1.0)),
                 Fate::Held => {}
                 Fate::Dependent => {
-                    for &(j, c) in of[i].into_iter().flatten() {
+                    for &(j, c) in relation.into_iter().flatten() {
                         if let Fate::Free(k) = transform.fates[j] {
                             transform.terms.push((k, c));
                         }
@@ -210,7 +210,7 @@ impl FemModel {
         model.reassemble();
         let auto_spc = options.auto_spc.unwrap_or_else(|| {
             let param = deck.param("AUTOSPC");
-            !param.is_some_and(|p| p.value == "NO")
+            param.is_none_or(|p| p.value != "NO")
         });
         if auto_spc {
             model.hold_singular();
@@ -462,7 +462,7 @@ impl FemModel {
     /// Holds components without stiffness, grid by grid: translations and rotations separately, by elimination with
     /// the largest pivot first (Nastran's grid point singularities).
     fn hold_singular(&mut self) {
-        let mut triples: Vec<([[f64; 3]; 3], [Option<usize>; 3])> = Vec::new();
+        let mut triples: Vec<Triple> = Vec::new();
         let mut of_free: Vec<(usize, usize)> = vec![(usize::MAX, 0); self.constraints.free.len()];
         for point in self.freedoms.points() {
             for half in 0..if point.is_scalar { 1 } else { 2 } {
@@ -475,20 +475,20 @@ impl FemModel {
                         of_free[k] = (triples.len(), c);
                     }
                 }
-                triples.push(([[0.0; 3]; 3], members));
+                triples.push(Triple {
+                    stiffness: [[0.0; 3]; 3],
+                    members,
+                });
             }
         }
         for (i, j, value) in self.stiffness.entries() {
             let ((t, a), (u, b)) = (of_free[i], of_free[j]);
             if t == u {
-                triples[t].0[a][b] = value;
-                triples[t].0[b][a] = value;
+                triples[t].stiffness[a][b] = value;
+                triples[t].stiffness[b][a] = value;
             }
         }
-        let singular: Vec<usize> = triples
-            .into_iter()
-            .flat_map(|(k, members)| singular_components(k, members))
-            .collect();
+        let singular: Vec<usize> = triples.into_iter().flat_map(singular_components).collect();
         if singular.is_empty() {
             return;
         }
@@ -520,14 +520,24 @@ pub(crate) fn listed(freedoms: &Freedoms, which: &[usize]) -> String {
     names.join(", ")
 }
 
-fn singular_components(mut k: [[f64; 3]; 3], members: [Option<usize>; 3]) -> Vec<usize> {
+/// Stiffness among the translations or the rotations of a grid, and its free freedoms.
+struct Triple {
+    stiffness: [[f64; 3]; 3],
+    members: [Option<usize>; 3],
+}
+
+fn singular_components(triple: Triple) -> Vec<usize> {
+    let Triple {
+        stiffness: mut k,
+        members,
+    } = triple;
     let mut left: Vec<usize> = (0..3).filter(|&c| members[c].is_some()).collect();
     let largest = left.iter().fold(0.0_f64, |m, &c| m.max(k[c][c]));
     while let Some(at) = (0..left.len()).max_by(|&p, &q| k[left[p]][left[p]].total_cmp(&k[left[q]][left[q]]))
     {
         let c = left[at];
         let pivot = k[c][c];
-        if !(pivot > SINGULAR * largest) {
+        if pivot <= SINGULAR * largest {
             break;
         }
         left.remove(at);

@@ -89,7 +89,7 @@ impl ModesOptions {
         if !low.is_finite() {
             return bad("the lower frequency", low, "a finite number in Hz");
         }
-        if !(high > low.max(0.0)) {
+        if high.is_nan() || high <= low.max(0.0) {
             return bad("the upper frequency", high, "more than the lower one, in Hz");
         }
         Ok(())

@@ -28,6 +28,9 @@ pub(crate) struct Relation {
     id: Id,
 }
 
+/// Freedoms with their coefficients.
+type Terms = Vec<(usize, f64)>;
+
 struct Collector<'a> {
     context: &'a Context<'a>,
     freedoms: &'a Freedoms,
@@ -249,7 +252,7 @@ fn scaled_inverse(normal: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
     let scaled = s * normal * s;
     let eigen = scaled.symmetric_eigen();
     let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
-    if !(low > 1e-10 * high) {
+    if low.is_nan() || low <= 1e-10 * high {
         return None;
     }
     let inverse = Matrix6::from_diagonal(&eigen.eigenvalues.map(|v| 1.0 / v));
@@ -257,10 +260,7 @@ fn scaled_inverse(normal: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
 }
 
 /// Equations `u_i = sum(c u_j)` solved for the freedoms of UM in place of the u_i.
-fn exchanged(
-    equations: Vec<(usize, BTreeMap<usize, f64>)>,
-    um: &[usize],
-) -> Option<Vec<(usize, Vec<(usize, f64)>)>> {
+fn exchanged(equations: Vec<(usize, BTreeMap<usize, f64>)>, um: &[usize]) -> Option<Vec<(usize, Terms)>> {
     if equations.len() != um.len() {
         return None;
     }
@@ -277,7 +277,8 @@ fn exchanged(
         }
     }
     let inverse: DMatrix<f64> = left.clone().try_inverse()?;
-    if !((&inverse * &left - DMatrix::identity(n, n)).amax() < 1e-6) {
+    let error = (&inverse * &left - DMatrix::identity(n, n)).amax();
+    if error.is_nan() || error >= 1e-6 {
         return None;
     }
     let columns: Vec<(usize, nalgebra::DVector<f64>)> = right

@@ -51,9 +51,8 @@ fn val_complete_craig_bampton_is_exact() {
         model.modes_of_reduced(&reduced, 18).expect("modes"),
     );
     assert_eq!(reduced.boundary.len(), 12);
-    for k in 6..17 {
-        // Both solve with shifts far below the highest modes, whose last digits are rounding.
-        close(own.frequencies_hz[k], full.frequencies_hz[k], 5e-8);
+    for k in 6..16 {
+        close(own.frequencies_hz[k], full.frequencies_hz[k], 1e-11);
     }
 }
 
