@@ -286,7 +286,7 @@ impl Krylov<'_> {
             longest = longest.max(before.unwrap_or(0.0));
             let norm = length(&column, &product);
             let limit = if floor > 0.0 { floor } else { 1e-13 * longest };
-            if !(norm > limit && norm > 0.0) || !self.is_massive(&column, norm) {
+            if norm <= limit || !norm.is_normal() || !self.is_massive(&column, norm) {
                 continue;
             }
             r[(kept, j)] = norm;

@@ -497,9 +497,10 @@ impl FemModel {
             singular.len(),
             listed(&self.freedoms, &singular)
         ));
+        let mass = self.full_mass.diagonal();
         let massive = singular
             .iter()
-            .filter(|&&i| self.full_mass.diagonal().get(i).is_some_and(|&m| m > 0.0))
+            .filter(|&&i| mass.get(i).is_some_and(|&m| m > 0.0))
             .count();
         if massive > 0 {
             self.remarks.push(format!(

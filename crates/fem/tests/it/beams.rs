@@ -258,3 +258,43 @@ fn val_ranges_select_the_same_modes() {
         .expect("modes");
     close(three.frequencies_hz[2], all[10], 1e-9);
 }
+
+/// Standard sections are the constants on the card: a rectangle with shear factors 5/6 and Saint-Venant's torsion, a
+/// channel of thin walls, and a box beam.
+#[test]
+fn val_standard_sections() {
+    let of = |property: &str, element: &str| {
+        let deck = parse(&format!(
+            "MAT1,1,{E:e},2.6+10,,{RHO}\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.5,0.2\nCONM2,8,1,,10.,,,,\n,1.,,2.,,,3.\n\
+             CONM2,9,2,,5.,0.2,,,\n,1.,,2.,,,3.\n{property}\n{element},1,1,1,2,0.,1.,0."
+        ));
+        modes(&model(&deck), 12).frequencies_hz
+    };
+    // 0.1 wide, 0.2 high: I1 = w h^3/12; J = 0.2287 h w^3 for h/w = 2 (Timoshenko and Goodier, Table 7).
+    let rectangle = of("PBARL,1,1,,BAR\n,0.1,0.2", "CBAR");
+    let constants = of(
+        "PBAR,1,1,0.02,6.666666667-5,1.666666667-5,4.574-5\n,\n,0.8333333333,0.8333333333",
+        "CBAR",
+    );
+    for k in 6..12 {
+        close(rectangle[k], constants[k], 1e-3);
+    }
+    let box_beam = of("PBEAML,1,1,,BOX\n,0.1,0.2,0.01,0.01", "CBEAM");
+    let box_bar = of("PBARL,1,1,,BOX\n,0.1,0.2,0.01,0.01", "CBAR");
+    for k in 6..12 {
+        // The beam has the inertia of its sections about its axis beside.
+        close(box_beam[k], box_bar[k], 2e-2);
+    }
+    let refused = parse(&format!(
+        "MAT1,1,{E:e},2.6+10,,{RHO}\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.5,0.2\nPBEAML,1,1,,CHAN\n,0.1,0.2,0.01,0.01\n\
+         CBEAM,1,1,1,2,0.,1.,0."
+    ));
+    let error = FemModel::assemble(&refused, &ModelOptions::default())
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("PBEAML 1: the shear centre of a CHAN is not known"),
+        "{error}"
+    );
+}

@@ -166,6 +166,13 @@ fn mechanisms_are_named() {
         error.starts_with("the structure is a mechanism: grid "),
         "{error}"
     );
+    // A hundred bars with ill-conditioned bending: the rigid motions are still seen.
+    let aircraft = model(&crate::support::read("f25-like/f25.bdf"));
+    let error = aircraft
+        .static_solution(&[push(1025, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0])], [0.0; 3])
+        .map(|_| ())
+        .unwrap_err();
+    assert!(matches!(error, albatross_fem::Error::Mechanism { .. }), "{error}");
 }
 
 #[test]
@@ -244,4 +251,28 @@ fn bad_options_are_refused() {
 
 fn model_without_mass() -> FemModel {
     model(&with_case("SPC = 1", &BEAM.replace("2700.", "0.")))
+}
+
+/// A slender cantilever of 2,000 bars is no mechanism: its smallest scaled eigenvalue is (1.9/2000)^4.
+#[test]
+fn long_chains_are_not_taken_for_mechanisms() {
+    let n = 2000;
+    let mut bulk =
+        String::from("MAT1,1,7.+10,2.6+10,,2700.\nPBAR,1,1,0.005,1.-6,4.-6,2.-6\nSPC1,1,123456,1\n");
+    for k in 0..=n {
+        bulk += &format!("GRID,{},,{:.6},0.,0.\n", k + 1, f64::from(k) * 0.05);
+        if k < n {
+            bulk += &format!("CBAR,{},1,{},{},0.,1.,0.\n", k + 1, k + 1, k + 2);
+        }
+    }
+    let model = model(&with_case("SPC = 1", &bulk));
+    let tip = n as u32 + 1;
+    let solution = model
+        .static_solution(&[push(tip, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0])], [0.0; 3])
+        .expect("a solution");
+    close(solution.at(tip).expect("tip")[1], 1e6 / (3.0 * 7e10 * 1e-6), 1e-4);
+    let modes = modes(&model, 4);
+    assert!(modes.remarks.is_empty(), "{:?}", modes.remarks);
+    let exact = (1.875_104_07_f64 / 100.0).powi(2) * (7e10_f64 * 1e-6 / 13.5).sqrt() / std::f64::consts::TAU;
+    close(modes.frequencies_hz[0], exact, 1e-4);
 }
