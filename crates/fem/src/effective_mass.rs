@@ -27,7 +27,8 @@ impl FemModel {
         let of = |k: usize| {
             let mu = modes.generalized_masses[k];
             let shape = modes.shapes.col(k);
-            let l: [f64; 6] = std::array::from_fn(|j| shape.iter().zip(&products[j]).map(|(p, m)| p * m).sum());
+            let l: [f64; 6] =
+                std::array::from_fn(|j| shape.iter().zip(&products[j]).map(|(p, m)| p * m).sum());
             EffectiveMass {
                 participation: l.map(|l| l / mu),
                 effective: l.map(|l| l * l / mu),

@@ -152,7 +152,7 @@ impl Factor<'_> {
     /// The freedom that moves most in a motion which the matrix maps to nothing, if there is one: inverse iteration on
     /// the scaled matrix, whose smallest eigenvalue is then rounding noise.
     pub(crate) fn null_motion(&self, a: &Symmetric) -> Option<usize> {
-        const NOISE: f64 = 1e-14;
+        const NOISE: f64 = 3e-15;
         let mut x = crate::pencil::random_block(a.order(), 1, 0);
         for _ in 0..3 {
             // With y = S^-1 x the iteration on S A S is x -> A^-1 S^-2 x.
@@ -170,7 +170,10 @@ impl Factor<'_> {
         if energy.abs() > NOISE * size {
             return None;
         }
-        let largest = scaled().map(f64::abs).enumerate().max_by(|p, q| p.1.total_cmp(&q.1));
+        let largest = scaled()
+            .map(f64::abs)
+            .enumerate()
+            .max_by(|p, q| p.1.total_cmp(&q.1));
         largest.map(|(i, _)| i)
     }
 

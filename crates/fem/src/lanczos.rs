@@ -9,10 +9,10 @@
 //! is kept M-orthonormal against all earlier blocks by two Gram-Schmidt passes. M may be singular: vectors without
 //! mass are purged because every basis block, and every result, is a product of the operator.
 
+use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;
 use albatross_numerics::faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use albatross_numerics::faer::{Accum, MatRef, Par, Side};
-use albatross_numerics::Mat;
+use albatross_numerics::faer::{Accum, ColRef, MatRef, Par, Side};
 
 use crate::error::Error;
 use crate::factor::Factor;
@@ -45,6 +45,8 @@ pub(crate) struct Pairs {
 /// A block iteration: the basis so far and the projected operator.
 struct Krylov<'a> {
     factor: &'a Factor<'a>,
+    stiffness: &'a Symmetric,
+    sigma: f64,
     mass: &'a Symmetric,
     /// Columns in use: `size`.
     basis: Mat<f64>,
@@ -56,7 +58,7 @@ struct Krylov<'a> {
 /// `start`: vectors to begin with, a product of the operator. Their number is the block size.
 pub(crate) fn lowest(
     factor: &Factor<'_>,
-    mass: &Symmetric,
+    (stiffness, mass): (&Symmetric, &Symmetric),
     sigma: f64,
     start: Mat<f64>,
     wanted: Wanted,
@@ -68,6 +70,8 @@ pub(crate) fn lowest(
     };
     let mut krylov = Krylov {
         factor,
+        stiffness,
+        sigma,
         mass,
         basis: Mat::zeros(n, (2 * count.min(200) + 6 * block_size).min(n + block_size)),
         size: 0,
@@ -168,17 +172,18 @@ impl Krylov<'_> {
     /// A block outside the basis; empty if the basis holds every motion with mass.
     fn fresh(&self, columns: usize, seed: usize) -> Mat<f64> {
         let mut w = self.operator(&random_block(self.mass.order(), columns, seed as u64));
-        let before = self.gram(w.clone()).1;
+        let mw = self.mass.apply_columns(&w);
+        for k in 0..w.ncols() {
+            let norm: f64 = w.col(k).iter().zip(mw.col(k).iter()).map(|(a, b)| a * b).sum();
+            if norm > 0.0 {
+                let scale = self.largest_theta() / norm.sqrt();
+                w.col_mut(k).iter_mut().for_each(|v| *v *= scale);
+            }
+        }
         for _ in 0..2 {
             self.remove_basis(&mut w);
         }
-        let (next, after) = self.orthonormalise(w);
-        // Rounding of what was removed is no new direction.
-        if after.norm_max() > 1e-11 * before.norm_max() {
-            next
-        } else {
-            Mat::zeros(next.nrows(), 0)
-        }
+        self.orthonormalise(w).0
     }
 
     fn append(&mut self, block: &Mat<f64>) {
@@ -203,8 +208,7 @@ impl Krylov<'_> {
             h += self.remove_basis(&mut w);
         }
         for j in 0..w.ncols() {
-            self.projected
-                .push((0..=first + j).map(|i| h[(i, j)]).collect());
+            self.projected.push((0..=first + j).map(|i| h[(i, j)]).collect());
         }
         self.orthonormalise(w)
     }
@@ -214,45 +218,97 @@ impl Krylov<'_> {
         let mw = self.mass.apply_columns(w);
         let mut h = Mat::zeros(self.size, w.ncols());
         let v = self.vectors();
-        matmul(h.as_mut(), Accum::Replace, v.transpose(), mw.as_ref(), 1.0, Par::Seq);
+        matmul(
+            h.as_mut(),
+            Accum::Replace,
+            v.transpose(),
+            mw.as_ref(),
+            1.0,
+            Par::Seq,
+        );
         matmul(w.as_mut(), Accum::Add, v, h.as_ref(), -1.0, Par::Seq);
         h
     }
 
     /// W = Q R with Q^T M Q = 1; directions that are rounding noise of W are dropped. Q is made orthogonal to the
-    /// basis and to itself a second time, because the first pass amplifies noise.
+    /// basis and to itself a second time, because the first pass amplifies noise: a column that then loses most of its
+    /// length was noise.
     fn orthonormalise(&self, w: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
-        let (mut q, r) = self.gram(w);
+        let floor = 1e-12 * self.largest_theta();
+        let (mut q, r) = self.gram_schmidt(w, floor);
         if q.ncols() == 0 {
             return (q, r);
         }
         if self.size > 0 {
             self.remove_basis(&mut q);
         }
-        let (q, again) = self.gram(q);
+        let (q, again) = self.gram_schmidt(q, 0.3);
         let product = &again * &r;
         (q, product)
     }
 
-    /// One pass through the eigenvectors of the Gram matrix W^T M W = U g U^T: Q = W U g^-1/2, R = g^1/2 U^T.
-    fn gram(&self, w: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
-        let b = w.ncols();
-        let mw = self.mass.apply_columns(&w);
-        let gram = w.transpose() * &mw;
-        let gram = Mat::from_fn(b, b, |i, j| 0.5 * (gram[(i, j)] + gram[(j, i)]));
-        let empty = (Mat::zeros(w.nrows(), 0), Mat::zeros(0, b));
-        let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else {
-            return empty;
-        };
-        let (g, u) = (eigen.S(), eigen.U());
-        // Noise: relative to this block, and to what the operator makes of a unit vector.
-        let largest = (0..b).fold(0.0_f64, |m, k| m.max(g[k]));
-        let scale = self.projected.first().and_then(|c| c.first()).copied().unwrap_or(0.0);
-        let floor = (1e-20 * largest).max((1e-13 * scale).powi(2)).max(f64::MIN_POSITIVE);
-        let kept: Vec<usize> = (0..b).rev().filter(|&k| g[k] > floor).collect();
-        let left = Mat::from_fn(b, kept.len(), |i, j| u[(i, kept[j])] / g[kept[j]].sqrt());
-        let right = Mat::from_fn(kept.len(), b, |i, j| u[(j, kept[i])] * g[kept[i]].sqrt());
-        (&w * &left, right)
+    /// What the operator makes of a unit vector, about; 0 before the first block.
+    fn largest_theta(&self) -> f64 {
+        self.projected
+            .first()
+            .and_then(|c| c.first())
+            .copied()
+            .unwrap_or(0.0)
+    }
+
+    /// Gram-Schmidt by columns in the inner product of M, each column twice. Columns that are left with less than
+    /// `floor` (with 0: than 1e-13 of the longest) are dropped, and those whose little mass is rounding.
+    fn gram_schmidt(&self, mut w: Mat<f64>, floor: f64) -> (Mat<f64>, Mat<f64>) {
+        let (n, b) = (w.nrows(), w.ncols());
+        let mut r = Mat::zeros(b, b);
+        let mut kept = 0;
+        let mut longest = 0.0_f64;
+        let mut product = vec![0.0; n];
+        let dot = |a: ColRef<'_, f64>, b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        for j in 0..b {
+            let mut column: Vec<f64> = w.col(j).iter().copied().collect();
+            let mut before = None;
+            for _ in 0..2 {
+                product.fill(0.0);
+                self.mass.add_product(&column, &mut product);
+                before.get_or_insert(length(&column, &product));
+                for i in 0..kept {
+                    let c = dot(w.col(i), &product);
+                    r[(i, j)] += c;
+                    column
+                        .iter_mut()
+                        .zip(w.col(i).iter())
+                        .for_each(|(x, q)| *x -= c * q);
+                }
+            }
+            product.fill(0.0);
+            self.mass.add_product(&column, &mut product);
+            longest = longest.max(before.unwrap_or(0.0));
+            let norm = length(&column, &product);
+            let limit = if floor > 0.0 { floor } else { 1e-13 * longest };
+            if norm <= limit || !norm.is_normal() || !self.is_massive(&column, norm) {
+                continue;
+            }
+            r[(kept, j)] = norm;
+            w.col_mut(kept)
+                .iter_mut()
+                .zip(&column)
+                .for_each(|(q, x)| *q = x / norm);
+            kept += 1;
+        }
+        (w.subcols(0, kept).to_owned(), r.subrows(0, kept).to_owned())
+    }
+
+    /// Whether the M-norm of a short vector is more than rounding: its Rayleigh quotient tells.
+    fn is_massive(&self, x: &[f64], norm: f64) -> bool {
+        let theta = self.largest_theta();
+        if norm >= 1e-6 * theta {
+            return true;
+        }
+        let kx = self.stiffness.apply(x);
+        let strain: f64 = x.iter().zip(&kx).map(|(x, k)| x * k).sum();
+        let mass = norm * norm;
+        mass > 1e-12 * theta * (strain - self.sigma * mass)
     }
 
     /// Eigenvalues of the projected operator, largest first, and its eigenvectors.
@@ -275,9 +331,13 @@ impl Krylov<'_> {
         let x = self.vectors() * ritz;
         let mut x = self.operator(&x);
         let mx = self.mass.apply_columns(&x);
-        for k in 0..x.ncols() {
+        for (k, theta) in theta.iter().enumerate().take(x.ncols()) {
             let mass: f64 = x.col(k).iter().zip(mx.col(k).iter()).map(|(a, b)| a * b).sum();
-            let scale = if mass > 0.0 { 1.0 / mass.sqrt() } else { 1.0 / theta[k] };
+            let scale = if mass > 0.0 {
+                1.0 / mass.sqrt()
+            } else {
+                1.0 / theta
+            };
             x.col_mut(k).iter_mut().for_each(|v| *v *= scale);
         }
         // The product magnifies what rounding left of lower modes in higher ones; with X^T M X = L L^T, X L^-T takes
@@ -292,17 +352,24 @@ impl Krylov<'_> {
     }
 }
 
+/// sqrt(x^T M x) from x and M x.
+fn length(x: &[f64], mx: &[f64]) -> f64 {
+    x.iter().zip(mx).map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt()
+}
+
 /// A few products of the operator on a block, with Rayleigh-Ritz: a start for [`lowest`], and estimates of the
 /// lowest eigenvalues, ascending (upper bounds).
 pub(crate) fn subspace(
     factor: &Factor<'_>,
-    mass: &Symmetric,
+    (stiffness, mass): (&Symmetric, &Symmetric),
     sigma: f64,
     start: Mat<f64>,
     steps: usize,
 ) -> Result<(Mat<f64>, Vec<f64>), Error> {
     let mut krylov = Krylov {
         factor,
+        stiffness,
+        sigma,
         mass,
         basis: Mat::zeros(mass.order(), 0),
         size: 0,

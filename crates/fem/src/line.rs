@@ -83,9 +83,7 @@ impl LineCard<'_> {
             return Err(context.bad_element(
                 self.name,
                 self.id,
-                format!(
-                    "its length between grids {a} and {b} is {length} m; correct the grids or offsets"
-                ),
+                format!("its length between grids {a} and {b} is {length} m; correct the grids or offsets"),
             ));
         }
         Ok(LineAxis { arms, vector, length })
@@ -97,9 +95,7 @@ impl LineCard<'_> {
         let a = self.grids[0];
         let grid = context.grid(self.name, self.id, a)?;
         let v = match self.orientation {
-            Some(Orientation::Grid(g0)) => {
-                context.grid(self.name, self.id, *g0)?.position - grid.position
-            }
+            Some(Orientation::Grid(g0)) => context.grid(self.name, self.id, *g0)?.position - grid.position,
             Some(Orientation::Vector(v)) => {
                 let v = Vector3::from(*v);
                 match self.offset_frames.as_bytes().first() {

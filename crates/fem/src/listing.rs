@@ -102,7 +102,11 @@ impl Pages {
                 };
                 let mut line = format!("{:>14}      {letter}     ", row.id);
                 for value in row.values {
-                    let shown = if value.is_nan() { String::new() } else { number(value) };
+                    let shown = if value.is_nan() {
+                        String::new()
+                    } else {
+                        number(value)
+                    };
                     let _ = write!(line, "{shown:>15}");
                 }
                 self.line(&line);

@@ -1,9 +1,9 @@
 //! The finite element model of a deck: K and M on free freedoms.
 
 use albatross_nastran::Deck;
+use albatross_nastran::GridPointWeight;
 use albatross_nastran::deck::{Id, ScalarMassValue};
 use albatross_nastran::frames::Frames;
-use albatross_nastran::GridPointWeight;
 use nalgebra::{Matrix6, Vector3};
 use std::collections::BTreeSet;
 
@@ -96,9 +96,9 @@ impl Transform {
             of[r.dependent] = Some(&r.terms);
         }
         let mut free = Vec::new();
-        for i in 0..count {
-            if fates[i] == Fate::Held && !held.contains(&i) {
-                fates[i] = Fate::Free(free.len());
+        for (i, fate) in fates.iter_mut().enumerate() {
+            if *fate == Fate::Held && !held.contains(&i) {
+                *fate = Fate::Free(free.len());
                 free.push(i);
             }
         }
@@ -108,12 +108,12 @@ impl Transform {
             free,
             fates,
         };
-        for i in 0..count {
+        for (i, relation) in of.into_iter().enumerate() {
             match transform.fates[i] {
                 Fate::Free(k) => transform.terms.push((k, 1.0)),
                 Fate::Held => {}
                 Fate::Dependent => {
-                    for &(j, c) in of[i].into_iter().flatten() {
+                    for &(j, c) in relation.into_iter().flatten() {
                         if let Fate::Free(k) = transform.fates[j] {
                             transform.terms.push((k, c));
                         }
@@ -159,7 +159,11 @@ impl FemModel {
         let frames = Frames::resolve(deck)?;
         let coupled = || {
             let asked = deck.param("COUPMASS").and_then(|p| p.as_integer());
-            if asked.is_some_and(|n| n > 0) { BarMass::Coupled } else { BarMass::Lumped }
+            if asked.is_some_and(|n| n > 0) {
+                BarMass::Coupled
+            } else {
+                BarMass::Lumped
+            }
         };
         let bar_mass = options.bar_mass.unwrap_or_else(coupled);
         let deck_mass = DeckMass::assemble(deck, &frames, bar_mass)?;
@@ -172,7 +176,10 @@ impl FemModel {
         }
         remarks.extend(deck_mass.notes.iter().cloned());
 
-        let context = Context { deck, frames: &frames };
+        let context = Context {
+            deck,
+            frames: &frames,
+        };
         let freedoms = Freedoms::of(deck);
         let stiffness = Stiffness::assemble(&context, &freedoms)?;
         remarks.extend(stiffness.remarks);
@@ -203,14 +210,15 @@ impl FemModel {
         model.reassemble();
         let auto_spc = options.auto_spc.unwrap_or_else(|| {
             let param = deck.param("AUTOSPC");
-            !param.is_some_and(|p| p.value == "NO")
+            param.is_none_or(|p| p.value != "NO")
         });
         if auto_spc {
             model.hold_singular();
         }
         if model.constraints.free.is_empty() {
             return Err(Error::EmptyModel {
-                problem: "no freedom of the model is free and has stiffness; check GRID, elements and SPC".into(),
+                problem: "no freedom of the model is free and has stiffness; check GRID, elements and SPC"
+                    .into(),
             });
         }
         Ok(model)
@@ -277,7 +285,9 @@ impl FemModel {
     pub(crate) fn rigid_motions(&self, center: Vector3<f64>) -> Vec<[f64; 6]> {
         let mut motions = vec![[0.0; 6]; self.freedoms.count()];
         for point in self.freedoms.points().iter().filter(|p| !p.is_scalar) {
-            let Some(grid) = self.frames.grid(point.id) else { continue };
+            let Some(grid) = self.frames.grid(point.id) else {
+                continue;
+            };
             let e = rotation_blocks(&grid.axes).transpose()
                 * crate::rigid::rigid_transfer(grid.position - center);
             for i in 0..6 {
@@ -301,7 +311,9 @@ impl FemModel {
             self.add_pair(pair, &mut k);
         }
         for spring in &self.elements.springs {
-            let ends = spring.ends.map(|e| e.map(|e| self.constraints.row(e)).unwrap_or_default());
+            let ends = spring
+                .ends
+                .map(|e| e.map(|e| self.constraints.row(e)).unwrap_or_default());
             for (p, &a) in ends.iter().enumerate() {
                 for (q, &b) in ends.iter().enumerate() {
                     let value = if p == q { spring.value } else { -spring.value };
@@ -357,7 +369,9 @@ impl FemModel {
             Some((first, turn, turn * local))
         };
         for pair in &self.elements.pairs {
-            let Some((first_a, turn_a, ua)) = at(pair.a) else { continue };
+            let Some((first_a, turn_a, ua)) = at(pair.a) else {
+                continue;
+            };
             let [aa, ab, bb] = &pair.blocks;
             let mut fa = aa * ua;
             if let Some((first_b, turn_b, ub)) = pair.b.and_then(at) {
@@ -405,7 +419,12 @@ impl FemModel {
 
     fn assemble_full_mass(&self) -> Symmetric {
         let mut m = Triplets::default();
-        let at = |id: Id| Some((self.freedoms.point(id)?.first, rotation_blocks(&self.frames.grid(id)?.axes)));
+        let at = |id: Id| {
+            Some((
+                self.freedoms.point(id)?.first,
+                rotation_blocks(&self.frames.grid(id)?.axes),
+            ))
+        };
         for (&id, grid) in &self.mass_model.grids {
             let Some((first, turn)) = at(id) else { continue };
             let block = turn.transpose() * grid.matrix * turn;
@@ -416,7 +435,9 @@ impl FemModel {
             }
         }
         for (&(a, b), block) in &self.mass_model.couplings {
-            let (Some((first_a, turn_a)), Some((first_b, turn_b))) = (at(a), at(b)) else { continue };
+            let (Some((first_a, turn_a)), Some((first_b, turn_b))) = (at(a), at(b)) else {
+                continue;
+            };
             // a < b, and freedoms ascend with point numbers: M(b, a) is in the lower triangle.
             let block = turn_a.transpose() * block * turn_b;
             for i in 0..6 {
@@ -441,7 +462,7 @@ impl FemModel {
     /// Holds components without stiffness, grid by grid: translations and rotations separately, by elimination with
     /// the largest pivot first (Nastran's grid point singularities).
     fn hold_singular(&mut self) {
-        let mut triples: Vec<([[f64; 3]; 3], [Option<usize>; 3])> = Vec::new();
+        let mut triples: Vec<Triple> = Vec::new();
         let mut of_free: Vec<(usize, usize)> = vec![(usize::MAX, 0); self.constraints.free.len()];
         for point in self.freedoms.points() {
             for half in 0..if point.is_scalar { 1 } else { 2 } {
@@ -454,20 +475,20 @@ impl FemModel {
                         of_free[k] = (triples.len(), c);
                     }
                 }
-                triples.push(([[0.0; 3]; 3], members));
+                triples.push(Triple {
+                    stiffness: [[0.0; 3]; 3],
+                    members,
+                });
             }
         }
         for (i, j, value) in self.stiffness.entries() {
             let ((t, a), (u, b)) = (of_free[i], of_free[j]);
             if t == u {
-                triples[t].0[a][b] = value;
-                triples[t].0[b][a] = value;
+                triples[t].stiffness[a][b] = value;
+                triples[t].stiffness[b][a] = value;
             }
         }
-        let singular: Vec<usize> = triples
-            .into_iter()
-            .flat_map(|(k, members)| singular_components(k, members))
-            .collect();
+        let singular: Vec<usize> = triples.into_iter().flat_map(singular_components).collect();
         if singular.is_empty() {
             return;
         }
@@ -476,9 +497,10 @@ impl FemModel {
             singular.len(),
             listed(&self.freedoms, &singular)
         ));
+        let mass = self.full_mass.diagonal();
         let massive = singular
             .iter()
-            .filter(|&&i| self.full_mass.diagonal().get(i).is_some_and(|&m| m > 0.0))
+            .filter(|&&i| mass.get(i).is_some_and(|&m| m > 0.0))
             .count();
         if massive > 0 {
             self.remarks.push(format!(
@@ -499,13 +521,24 @@ pub(crate) fn listed(freedoms: &Freedoms, which: &[usize]) -> String {
     names.join(", ")
 }
 
-fn singular_components(mut k: [[f64; 3]; 3], members: [Option<usize>; 3]) -> Vec<usize> {
+/// Stiffness among the translations or the rotations of a grid, and its free freedoms.
+struct Triple {
+    stiffness: [[f64; 3]; 3],
+    members: [Option<usize>; 3],
+}
+
+fn singular_components(triple: Triple) -> Vec<usize> {
+    let Triple {
+        stiffness: mut k,
+        members,
+    } = triple;
     let mut left: Vec<usize> = (0..3).filter(|&c| members[c].is_some()).collect();
     let largest = left.iter().fold(0.0_f64, |m, &c| m.max(k[c][c]));
-    while let Some(at) = (0..left.len()).max_by(|&p, &q| k[left[p]][left[p]].total_cmp(&k[left[q]][left[q]])) {
+    while let Some(at) = (0..left.len()).max_by(|&p, &q| k[left[p]][left[p]].total_cmp(&k[left[q]][left[q]]))
+    {
         let c = left[at];
         let pivot = k[c][c];
-        if !(pivot > SINGULAR * largest) {
+        if pivot <= SINGULAR * largest {
             break;
         }
         left.remove(at);
@@ -547,7 +580,9 @@ fn supports(
             components.iter().collect()
         };
         for c in named {
-            let Some(freedom) = freedoms.index(id, c) else { continue };
+            let Some(freedom) = freedoms.index(id, c) else {
+                continue;
+            };
             if dependent.contains(&freedom) {
                 return Err(context.bad_constraint(
                     "GRID",
@@ -562,13 +597,20 @@ fn supports(
         }
     }
     let sets = selected_sets(context.deck, "SPC", subcase);
-    let enforced = context.deck.spcs.iter().filter(|s| sets.contains(&s.sid) && s.enforced != 0.0);
+    let enforced = context
+        .deck
+        .spcs
+        .iter()
+        .filter(|s| sets.contains(&s.sid) && s.enforced != 0.0);
     let count = enforced.count();
     if count > 0 {
-        remarks.push(format!("{count} enforced displacements on SPC cards are taken as zero"));
+        remarks.push(format!(
+            "{count} enforced displacements on SPC cards are taken as zero"
+        ));
     }
     if sets.is_empty() && !(context.deck.spcs.is_empty() && context.deck.spc1s.is_empty()) {
-        remarks.push("the deck has SPC cards, but case control selects no SPC set; none of them holds".into());
+        remarks
+            .push("the deck has SPC cards, but case control selects no SPC set; none of them holds".into());
     }
     Ok(held)
 }

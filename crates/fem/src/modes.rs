@@ -47,7 +47,13 @@ impl ModesOptions {
     pub fn of_deck(deck: &Deck, subcase: Option<u32>) -> Self {
         let method = selected(deck, "METHOD", subcase);
         let positive = |n: Option<i32>| n.and_then(|n| usize::try_from(n).ok()).filter(|&n| n > 0);
-        let scale = |norm: &str| if norm == "MAX" { ModeScale::Max } else { ModeScale::Mass };
+        let scale = |norm: &str| {
+            if norm == "MAX" {
+                ModeScale::Max
+            } else {
+                ModeScale::Mass
+            }
+        };
         let lanczos = |id: Id| deck.eigrl.get(&id);
         let others = |id: Id| deck.eigr.get(&id);
         let eigrl = method.map_or_else(|| deck.eigrl.values().next(), lanczos);
@@ -83,7 +89,7 @@ impl ModesOptions {
         if !low.is_finite() {
             return bad("the lower frequency", low, "a finite number in Hz");
         }
-        if !(high > low.max(0.0)) {
+        if high.is_nan() || high <= low.max(0.0) {
             return bad("the upper frequency", high, "more than the lower one, in Hz");
         }
         Ok(())
@@ -176,7 +182,13 @@ impl FemModel {
         self.constraints.free.iter().map(point).collect()
     }
 
-    pub(crate) fn finish(&self, pairs: Pairs, scale: ModeScale, remarks: Vec<String>, factor_entries: usize) -> Modes {
+    pub(crate) fn finish(
+        &self,
+        pairs: Pairs,
+        scale: ModeScale,
+        remarks: Vec<String>,
+        factor_entries: usize,
+    ) -> Modes {
         let residuals = self.residuals(&pairs);
         let count = pairs.eigenvalues.len();
         let mut shapes = Mat::zeros(self.freedoms.count(), count);
@@ -185,7 +197,9 @@ impl FemModel {
             let free: Vec<f64> = pairs.vectors.col(k).iter().copied().collect();
             let shape = self.constraints.expand(&free);
             // A sign that does not depend on the run: the largest component is positive.
-            let largest = shape.iter().fold(0.0_f64, |m, &v| if v.abs() > m.abs() { v } else { m });
+            let largest = shape
+                .iter()
+                .fold(0.0_f64, |m, &v| if v.abs() > m.abs() { v } else { m });
             let factor = match scale {
                 ModeScale::Mass => largest.signum(),
                 ModeScale::Max if largest != 0.0 => 1.0 / largest,
@@ -206,7 +220,10 @@ impl FemModel {
             residuals,
             remarks,
             factor_entries,
-            systems: points.iter().map(|p| self.frames.grid(p.id).map_or(0, |g| g.cd)).collect(),
+            systems: points
+                .iter()
+                .map(|p| self.frames.grid(p.id).map_or(0, |g| g.cd))
+                .collect(),
             freedoms: self.freedoms.clone(),
         }
     }
@@ -281,7 +298,9 @@ impl Modes {
         let point = self.freedoms.point(id)?;
         let width = if point.is_scalar { 1 } else { 6 };
         let column = self.shapes.col(mode);
-        Some(std::array::from_fn(|i| if i < width { column[point.first + i] } else { 0.0 }))
+        Some(std::array::from_fn(|i| {
+            if i < width { column[point.first + i] } else { 0.0 }
+        }))
     }
 
     /// The modes as a results file would hold them: eigenvalue table, eigenvectors in CD systems, and the grid point
@@ -325,7 +344,11 @@ impl Modes {
             }
             EigenvectorRow {
                 id: point.id,
-                kind: if point.is_scalar { PointKind::Scalar } else { PointKind::Grid },
+                kind: if point.is_scalar {
+                    PointKind::Scalar
+                } else {
+                    PointKind::Grid
+                },
                 cd: (!point.is_scalar).then_some(cd),
                 values,
             }

@@ -28,6 +28,9 @@ pub(crate) struct Relation {
     id: Id,
 }
 
+/// Freedoms with their coefficients.
+type Terms = Vec<(usize, f64)>;
+
 struct Collector<'a> {
     context: &'a Context<'a>,
     freedoms: &'a Freedoms,
@@ -126,7 +129,11 @@ impl Collector<'_> {
         };
         for (freedom, row) in dependent {
             let coefficients = row * inverse;
-            let terms = independent.iter().zip(coefficients.iter()).map(|(r, &c)| (r.0, c)).collect();
+            let terms = independent
+                .iter()
+                .zip(coefficients.iter())
+                .map(|(r, &c)| (r.0, c))
+                .collect();
             self.push(name, id, freedom, terms);
         }
         Ok(())
@@ -212,7 +219,8 @@ impl Collector<'_> {
         };
         if lead == 0.0 || !terms.iter().all(|t| t.1.is_finite()) {
             return Err(bad(
-                "its first coefficient is zero, or one is not finite; the first term is the dependent one".into(),
+                "its first coefficient is zero, or one is not finite; the first term is the dependent one"
+                    .into(),
             ));
         }
         let terms = others.iter().map(|&(j, c)| (j, -c / lead)).collect();
@@ -244,7 +252,7 @@ fn scaled_inverse(normal: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
     let scaled = s * normal * s;
     let eigen = scaled.symmetric_eigen();
     let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
-    if !(low > 1e-10 * high) {
+    if low.is_nan() || low <= 1e-10 * high {
         return None;
     }
     let inverse = Matrix6::from_diagonal(&eigen.eigenvalues.map(|v| 1.0 / v));
@@ -252,10 +260,7 @@ fn scaled_inverse(normal: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
 }
 
 /// Equations `u_i = sum(c u_j)` solved for the freedoms of UM in place of the u_i.
-fn exchanged(
-    equations: Vec<(usize, BTreeMap<usize, f64>)>,
-    um: &[usize],
-) -> Option<Vec<(usize, Vec<(usize, f64)>)>> {
+fn exchanged(equations: Vec<(usize, BTreeMap<usize, f64>)>, um: &[usize]) -> Option<Vec<(usize, Terms)>> {
     if equations.len() != um.len() {
         return None;
     }
@@ -272,7 +277,8 @@ fn exchanged(
         }
     }
     let inverse: DMatrix<f64> = left.clone().try_inverse()?;
-    if !((&inverse * &left - DMatrix::identity(n, n)).amax() < 1e-6) {
+    let error = (&inverse * &left - DMatrix::identity(n, n)).amax();
+    if error.is_nan() || error >= 1e-6 {
         return None;
     }
     let columns: Vec<(usize, nalgebra::DVector<f64>)> = right
@@ -310,7 +316,12 @@ fn resolved(
     }
     let waits: Vec<Vec<usize>> = relations
         .iter()
-        .map(|r| r.terms.iter().filter_map(|t| by_dependent.get(&t.0).copied()).collect())
+        .map(|r| {
+            r.terms
+                .iter()
+                .filter_map(|t| by_dependent.get(&t.0).copied())
+                .collect()
+        })
         .collect();
     let mut waiters: Vec<Vec<usize>> = vec![Vec::new(); relations.len()];
     for (i, needed) in waits.iter().enumerate() {
@@ -344,7 +355,12 @@ fn resolved(
             }
         }
     }
-    if let Some(r) = relations.iter().zip(&done).find(|(_, d)| d.is_none()).map(|(r, _)| r) {
+    if let Some(r) = relations
+        .iter()
+        .zip(&done)
+        .find(|(_, d)| d.is_none())
+        .map(|(r, _)| r)
+    {
         return Err(context.bad_constraint(
             r.name,
             r.id,

@@ -22,6 +22,7 @@ pub(crate) struct Pencil<'a> {
 #[derive(Debug)]
 pub(crate) struct Shifted<'a> {
     factor: Factor<'a>,
+    stiffness: &'a Symmetric,
     mass: &'a Symmetric,
     start: Mat<f64>,
     sigma: f64,
@@ -68,13 +69,14 @@ impl<'a> Pencil<'a> {
         for round in 0.. {
             let a = self.stiffness.combined(1.0, self.mass, -sigma);
             let factor = analysis.factorise(&a)?;
-            let (next, estimates) = lanczos::subspace(&factor, self.mass, sigma, block, 2)?;
+            let (next, estimates) = lanczos::subspace(&factor, (self.stiffness, self.mass), sigma, block, 2)?;
             let size = estimates.last().copied().unwrap_or(0.0);
             // A shift above what it finds hides the spectrum: the estimates are then of its own size.
             let ratio = -sigma / size;
             if size <= 0.0 || round >= 8 || (0.01..1.0).contains(&ratio) {
                 return Ok(Shifted {
                     factor,
+                    stiffness: self.stiffness,
                     mass: self.mass,
                     start: next,
                     sigma,
@@ -91,7 +93,13 @@ impl<'a> Pencil<'a> {
 
 impl Shifted<'_> {
     pub(crate) fn lowest(&self, wanted: Wanted) -> Result<Pairs, Error> {
-        lanczos::lowest(&self.factor, self.mass, self.sigma, self.start.clone(), wanted)
+        lanczos::lowest(
+            &self.factor,
+            (self.stiffness, self.mass),
+            self.sigma,
+            self.start.clone(),
+            wanted,
+        )
     }
 }
 

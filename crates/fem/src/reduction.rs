@@ -41,7 +41,8 @@ pub struct ReducedModel {
 #[must_use]
 pub fn analysis_set(deck: &Deck) -> Vec<(Id, Components)> {
     let sets = deck.asets.iter();
-    sets.flat_map(|s| s.points.iter().map(|&p| (p, s.components))).collect()
+    sets.flat_map(|s| s.points.iter().map(|&p| (p, s.components)))
+        .collect()
 }
 
 /// All six components of a list of grids, such as a load reference axis.
@@ -74,7 +75,11 @@ impl FemModel {
     /// As [`guyan`](Self::guyan), and those of [`modes`](Self::modes).
     pub fn craig_bampton(&self, set: &[(Id, Components)], count: usize) -> Result<ReducedModel, Error> {
         let split = self.split(set)?;
-        let (n, n_a, n_o) = (self.constraints.free.len(), split.boundary.len(), split.interior.len());
+        let (n, n_a, n_o) = (
+            self.constraints.free.len(),
+            split.boundary.len(),
+            split.interior.len(),
+        );
         let nodes = self.nodes();
         let stiffness = self.stiffness.part(n_o, &split.position);
         let mass = self.mass.part(n_o, &split.position);
@@ -162,7 +167,11 @@ impl FemModel {
         let mut boundary = Vec::new();
         for &(id, components) in set {
             let scalar = self.freedoms.point(id).is_some_and(|p| p.is_scalar);
-            let named: Vec<u8> = if scalar { vec![0] } else { components.iter().collect() };
+            let named: Vec<u8> = if scalar {
+                vec![0]
+            } else {
+                components.iter().collect()
+            };
             for c in named {
                 let missing = |cure| Error::NoSuchFreedom {
                     what: format!("component {c} of point {id}"),
@@ -207,14 +216,20 @@ fn projected(a: &Symmetric, r: &Mat<f64>) -> Mat<f64> {
 /// Lowest modes of a small pencil: with K - sigma M = L L^T, `L^-1 M L^-T y = theta y`. M may be singular.
 fn dense_modes(k: &Mat<f64>, m: &Mat<f64>, count: usize) -> Result<Pairs, Error> {
     let n = k.nrows();
-    let mut ratios: Vec<f64> = (0..n).filter(|&i| m[(i, i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]).collect();
+    let mut ratios: Vec<f64> = (0..n)
+        .filter(|&i| m[(i, i)] > 0.0)
+        .map(|i| k[(i, i)] / m[(i, i)])
+        .collect();
     ratios.sort_by(f64::total_cmp);
     let size = ratios.first().copied().ok_or_else(|| Error::EmptyModel {
         problem: "the reduced model has no mass; add freedoms that carry mass to the set".into(),
     })?;
     // Shifts far above the lowest eigenvalues lose their digits: a second round with what the first found.
     let rough = shifted_dense(k, m, -size.max(f64::MIN_POSITIVE), count.max(8))?;
-    let elastic = rough.eigenvalues.get(7.min(rough.eigenvalues.len().saturating_sub(1))).copied();
+    let elastic = rough
+        .eigenvalues
+        .get(7.min(rough.eigenvalues.len().saturating_sub(1)))
+        .copied();
     match elastic.filter(|&l| l > 0.0 && l < 0.5 * size) {
         Some(lambda) => shifted_dense(k, m, -0.3 * lambda, count),
         None => shifted_dense(k, m, -size.max(f64::MIN_POSITIVE), count),
@@ -242,10 +257,16 @@ fn shifted_dense(k: &Mat<f64>, m: &Mat<f64>, sigma: f64, count: usize) -> Result
         c.as_mut(),
         albatross_numerics::faer::Par::Seq,
     );
-    let eigen = c.self_adjoint_eigen(Side::Lower).map_err(|e| failed(format!("{e:?}")))?;
+    let eigen = c
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|e| failed(format!("{e:?}")))?;
     let theta: Vec<f64> = (0..n).rev().map(|i| eigen.S()[i]).collect();
     let largest = theta.first().copied().unwrap_or(0.0);
-    let found = theta.iter().take(count).take_while(|&&t| t > 1e-13 * largest).count();
+    let found = theta
+        .iter()
+        .take(count)
+        .take_while(|&&t| t > 1e-13 * largest)
+        .count();
     // y scaled so that x^T M x = 1: |y|^2 theta = 1.
     let mut x = Mat::from_fn(n, found, |i, j| eigen.U()[(i, n - 1 - j)] / theta[j].sqrt());
     albatross_numerics::faer::linalg::triangular_solve::solve_upper_triangular_in_place(

@@ -111,14 +111,16 @@ impl FemModel {
     fn load_vector(&self, loads: &[NodalLoad], acceleration: [f64; 3]) -> Result<Vec<f64>, Error> {
         let mut p = vec![0.0; self.freedoms.count()];
         for load in loads {
-            let point = self.freedoms.point(load.point).ok_or_else(|| Error::NoSuchFreedom {
-                what: format!("point {}, which a load names,", load.point),
-                cure: "load a GRID or SPOINT of the deck",
-            })?;
+            let point = self
+                .freedoms
+                .point(load.point)
+                .ok_or_else(|| Error::NoSuchFreedom {
+                    what: format!("point {}, which a load names,", load.point),
+                    cure: "load a GRID or SPOINT of the deck",
+                })?;
             match self.frames.grid(point.id) {
                 Some(grid) if !point.is_scalar => {
-                    let local = rotation_blocks(&grid.axes).transpose()
-                        * nalgebra::Vector6::from(load.load);
+                    let local = rotation_blocks(&grid.axes).transpose() * nalgebra::Vector6::from(load.load);
                     for i in 0..6 {
                         p[point.first + i] += local[i];
                     }

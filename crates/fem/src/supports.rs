@@ -12,12 +12,7 @@ use crate::rigid::rigid_transfer;
 /// control selects for `subcase`). A half model on its plane of symmetry keeps x, z and pitch; a clamped wing keeps
 /// nothing.
 #[must_use]
-pub fn free_directions(
-    deck: &Deck,
-    frames: &Frames,
-    center: [f64; 3],
-    subcase: Option<u32>,
-) -> [bool; 6] {
+pub fn free_directions(deck: &Deck, frames: &Frames, center: [f64; 3], subcase: Option<u32>) -> [bool; 6] {
     let mut free = [true; 6];
     let center = Vector3::from(center);
     for (id, components) in constrained(deck, subcase) {

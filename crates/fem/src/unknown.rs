@@ -5,20 +5,19 @@ use albatross_nastran::Deck;
 /// Cards that begin with C and are no elements, and elements without stiffness or mass in normal modes: plots,
 /// dampers, aerodynamics.
 const HARMLESS: [&str; 21] = [
-    "CORD1R", "CORD2R", "CORD1C", "CORD2C", "CORD1S", "CORD2S", "CORD3G", "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4",
-    "CDAMP5", "CVISC", "CAERO1", "CAERO2", "CAERO3", "CAERO4", "CAERO5", "CSET", "CSET1", "CSUPER",
+    "CORD1R", "CORD2R", "CORD1C", "CORD2C", "CORD1S", "CORD2S", "CORD3G", "CDAMP1", "CDAMP2", "CDAMP3",
+    "CDAMP4", "CDAMP5", "CVISC", "CAERO1", "CAERO2", "CAERO3", "CAERO4", "CAERO5", "CSET", "CSET1", "CSUPER",
 ];
 /// Cards of other names that add stiffness, mass or constraints.
 const STRUCTURAL: [&str; 17] = [
-    "GENEL", "RBE1", "RROD", "RSPLINE", "RSSCON", "RTRPLT", "RTRPLT1", "RJOINT", "RSPINR", "NSM", "NSM1", "NSML",
-    "NSML1", "NSMADD", "MFLUID", "DMIG", "SPCD",
+    "GENEL", "RBE1", "RROD", "RSPLINE", "RSSCON", "RTRPLT", "RTRPLT1", "RJOINT", "RSPINR", "NSM", "NSM1",
+    "NSML", "NSML1", "NSMADD", "MFLUID", "DMIG", "SPCD",
 ];
 
 /// One line for each kind: count and name.
 pub(crate) fn elements(deck: &Deck) -> Vec<String> {
-    let is_element = |name: &str| {
-        (name.starts_with('C') && !HARMLESS.contains(&name)) || STRUCTURAL.contains(&name)
-    };
+    let is_element =
+        |name: &str| (name.starts_with('C') && !HARMLESS.contains(&name)) || STRUCTURAL.contains(&name);
     let counts = deck.raw_card_counts();
     let mut found: Vec<String> = counts
         .iter()

@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::mass_matrix::MassMatrix;
-use albatross_fem::MassProperties;
 use crate::mean_axes::{Checked, MeanAxes, OnViolation, RigidBody, check};
 use crate::options::{BasisOptions, Normalisation};
 use crate::symmetry::{MirrorPairs, Symmetry, symmetry_measure};
+use albatross_fem::MassProperties;
 
 /// A grid of the basis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -5,16 +5,16 @@ use albatross_nastran::frames::Frames;
 use albatross_nastran::{Deck, Dialect, Eigenvector, ModalResults, PointKind, RealMode};
 use std::collections::{BTreeMap, BTreeSet};
 
-use albatross_fem::{BarMass, DeckMass};
 use crate::basis::{BasisGrid, BasisMass, ModalBasis};
-use albatross_fem::free_directions;
 use crate::error::Error;
 use crate::mass_matrix::MassMatrix;
-use albatross_fem::{MassProperties, MassSource};
 use crate::mean_axes::{MeanAxes, RigidBody};
 use crate::options::BasisOptions;
 use crate::select::{self, Candidate};
 use crate::weight_check;
+use albatross_fem::free_directions;
+use albatross_fem::{BarMass, DeckMass};
+use albatross_fem::{MassProperties, MassSource};
 
 impl ModalBasis {
     /// The modal basis of a modal analysis: the deck gives positions, frames and mass, the results the modes.

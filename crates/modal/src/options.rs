@@ -1,8 +1,8 @@
 //! What a basis is made of, and how strictly it is checked.
 
-use albatross_fem::BarMass;
 use crate::error::Error;
 use crate::mean_axes::OnViolation;
+use albatross_fem::BarMass;
 
 /// Which modes make the basis.
 #[derive(Debug, Clone, PartialEq, Eq)]

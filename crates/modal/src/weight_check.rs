@@ -4,8 +4,8 @@ use albatross_nastran::frames::Frames;
 use albatross_nastran::{Deck, GridPointWeight};
 
 use crate::basis::ModalBasis;
-use albatross_fem::MassModel;
 use crate::mean_axes::MeanAxes;
+use albatross_fem::MassModel;
 use albatross_fem::RIGID_DIRECTIONS;
 
 /// Basic position of the weight generator's reference point; `None` for a grid that the deck lacks.

@@ -30,7 +30,7 @@ const GAUSS_8: [(f64, f64); 8] = [
     (0.101_666_761_293_186_63, 0.111_190_517_226_687_24),
     (0.237_233_795_041_835_5, 0.156_853_322_938_943_64),
     (0.408_282_678_752_175_1, 0.181_341_891_689_181),
-    (0.591_717_321_247_824_9, 0.181_341_891_689_181),
+    (0.591_717_321_247_824_8, 0.181_341_891_689_181),
     (0.762_766_204_958_164_5, 0.156_853_322_938_943_64),
     (0.898_333_238_706_813_4, 0.111_190_517_226_687_24),
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
@@ -39,8 +39,8 @@ const GAUSS_8: [(f64, f64); 8] = [
 pub(super) fn add(context: &Context<'_>, stiffness: &mut Stiffness) -> Result<(), Error> {
     for bar in context.deck.bars.values() {
         let property = context.deck.bar_properties.get(&bar.pid);
-        let property = property
-            .ok_or_else(|| context.missing("CBAR", bar.id, format!("PBAR or PBARL {}", bar.pid)))?;
+        let property =
+            property.ok_or_else(|| context.missing("CBAR", bar.id, format!("PBAR or PBARL {}", bar.pid)))?;
         let stations = section::of_bar(context, bar.id, property)?;
         let pair = line(context, &LineCard::from(bar), &stations, bar.pins)?;
         stiffness.pairs.push(pair);
@@ -95,7 +95,11 @@ fn line(
     let turn = rotation_blocks(&axes);
     let [ea, eb] = axis.arms.map(|arm| turn.transpose() * rigid_transfer(arm));
     let [aa, ab, bb] = blocks;
-    let blocks = [ea.transpose() * aa * ea, ea.transpose() * ab * eb, eb.transpose() * bb * eb];
+    let blocks = [
+        ea.transpose() * aa * ea,
+        ea.transpose() * ab * eb,
+        eb.transpose() * bb * eb,
+    ];
     if !blocks.iter().all(|b| b.iter().all(|k| k.is_finite())) {
         return Err(context.bad_element(
             card.name,
@@ -104,7 +108,11 @@ fn line(
         ));
     }
     let [a, b] = card.grids;
-    Ok(GridPair { a, b: Some(b), blocks })
+    Ok(GridPair {
+        a,
+        b: Some(b),
+        blocks,
+    })
 }
 
 /// K_BB: forces at a free end B for its displacements, end A clamped, in element axes. Deformations whose rigidity is
@@ -114,7 +122,14 @@ fn tip_stiffness(stations: &Stations, length: f64) -> Option<Matrix6<f64>> {
     let none = |value: fn(&Rigidity) -> f64| list.iter().all(|s| value(&s.1) == 0.0);
     // Force components that the section can carry: Fx, Fy, Fz, Mx, My, Mz.
     let (plane_1, plane_2) = (!none(|r| r.bending[0]), !none(|r| r.bending[1]));
-    let carried = [!none(|r| r.axial), plane_1, plane_2, !none(|r| r.torsion), plane_2, plane_1];
+    let carried = [
+        !none(|r| r.axial),
+        plane_1,
+        plane_2,
+        !none(|r| r.torsion),
+        plane_2,
+        plane_1,
+    ];
     let mut flexibility = Matrix6::zeros();
     for pair in list.windows(2) {
         let [(xa, a), (xb, b)] = [pair[0], pair[1]];
@@ -122,7 +137,13 @@ fn tip_stiffness(stations: &Stations, length: f64) -> Option<Matrix6<f64>> {
         for &(t, weight) in rule {
             let at = between(&a, &b, t);
             let distance = (1.0 - (xa + t * (xb - xa))) * length;
-            add_compliance(&at, distance, carried, weight * (xb - xa) * length, &mut flexibility)?;
+            add_compliance(
+                &at,
+                distance,
+                carried,
+                weight * (xb - xa) * length,
+                &mut flexibility,
+            )?;
         }
     }
     for (i, is_carried) in carried.iter().enumerate() {
@@ -279,7 +300,11 @@ mod tests {
         let [i1, i2, _] = SECTION.bending;
         // y' = c y + s z is a principal direction with int(y'^2) = I1.
         let turned = Rigidity {
-            bending: [c * c * i1 + s * s * i2, s * s * i1 + c * c * i2, c * s * (i1 - i2)],
+            bending: [
+                c * c * i1 + s * s * i2,
+                s * s * i1 + c * c * i2,
+                c * s * (i1 - i2),
+            ],
             ..SECTION
         };
         let axes = nalgebra::Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c);

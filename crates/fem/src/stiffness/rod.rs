@@ -15,7 +15,14 @@ pub(super) fn add(context: &Context<'_>, stiffness: &mut Stiffness) -> Result<()
         rods.push(("CROD", rod.id, rod.grids, p.mid, p.area, p.torsion_constant));
     }
     for rod in context.deck.conrods.values() {
-        rods.push(("CONROD", rod.id, rod.grids, rod.mid, rod.area, rod.torsion_constant));
+        rods.push((
+            "CONROD",
+            rod.id,
+            rod.grids,
+            rod.mid,
+            rod.area,
+            rod.torsion_constant,
+        ));
     }
     for (name, id, [a, b], mid, area, torsion) in rods {
         let (e, g) = moduli(context, name, id, mid)?;
@@ -37,7 +44,11 @@ pub(super) fn add(context: &Context<'_>, stiffness: &mut Stiffness) -> Result<()
             .fixed_view_mut::<3, 3>(3, 3)
             .copy_from(&(along * (g * torsion / length)));
         if !block.iter().all(|k| k.is_finite()) {
-            return Err(context.bad_element(name, id, "its stiffness is not finite; correct the numbers on its cards"));
+            return Err(context.bad_element(
+                name,
+                id,
+                "its stiffness is not finite; correct the numbers on its cards",
+            ));
         }
         stiffness.pairs.push(GridPair {
             a,

@@ -1,8 +1,6 @@
 //! Section constants of bars and beams along their length.
 
-use albatross_nastran::deck::{
-    BarProperty, BeamProperty, Id, Pbar, Pbeam, Pbeaml, Section, SectionShape,
-};
+use albatross_nastran::deck::{BarProperty, BeamProperty, Id, Pbar, Pbeam, Pbeaml, Section, SectionShape};
 
 use crate::context::Context;
 use crate::error::Error;
@@ -122,13 +120,12 @@ pub(super) fn of_beam(context: &Context<'_>, id: Id, property: &BeamProperty) ->
 }
 
 /// Stations of a PBEAM, blanks resolved: end B as end A, intermediate ones linear between the ends.
-fn of_pbeam(
-    context: &Context<'_>,
-    p: &Pbeam,
-    elastic: (f64, f64),
-) -> Result<Vec<(f64, Rigidity)>, Error> {
+fn of_pbeam(context: &Context<'_>, p: &Pbeam, elastic: (f64, f64)) -> Result<Vec<(f64, Rigidity)>, Error> {
     let bad = |problem: &str| context.bad_element("PBEAM", p.id, problem);
-    let a = p.stations.first().ok_or_else(|| bad("it has no station; give A, I1 and I2"))?;
+    let a = p
+        .stations
+        .first()
+        .ok_or_else(|| bad("it has no station; give A, I1 and I2"))?;
     let b = p.stations.iter().skip(1).find(|s| s.x == 1.0);
     let [k1, k2] = p.ends.shear_factors.map(|k| Some(k.unwrap_or(1.0)));
     if p.ends.shear_relief.iter().flatten().any(|&s| s != 0.0) {
@@ -179,11 +176,7 @@ fn of_pbeam(
         .collect())
 }
 
-fn of_pbeaml(
-    context: &Context<'_>,
-    p: &Pbeaml,
-    elastic: (f64, f64),
-) -> Result<Vec<(f64, Rigidity)>, Error> {
+fn of_pbeaml(context: &Context<'_>, p: &Pbeaml, elastic: (f64, f64)) -> Result<Vec<(f64, Rigidity)>, Error> {
     let mut table = Vec::with_capacity(p.stations.len() + 1);
     for s in &p.stations {
         use SectionShape as S;
@@ -247,9 +240,7 @@ fn of_section(context: &Context<'_>, name: &str, id: Id, section: &Section) -> R
         (S::Rod, _) => [Some(0.9); 2],
         (S::Tube | S::Tube2, _) => [Some(0.5); 2],
         (S::Bar, _) => [Some(5.0 / 6.0); 2],
-        (S::Box, &[w, h, t_flange, t_web]) => {
-            [Some(2.0 * h * t_web / area), Some(2.0 * w * t_flange / area)]
-        }
+        (S::Box, &[w, h, t_flange, t_web]) => [Some(2.0 * h * t_web / area), Some(2.0 * w * t_flange / area)],
         _ => [None; 2],
     };
     Ok(Constants {
@@ -282,7 +273,9 @@ fn product_moment(section: &Section) -> Option<f64> {
             let y_c = walls.iter().map(|w| w.0 * w.2).sum::<f64>() / area;
             Some(walls.iter().map(|w| w.0 * (w.1 - z_c) * (w.2 - y_c)).sum())
         }
-        (S::Box1, &[_, _, t_top, t_bottom, t_left, t_right]) if t_top != t_bottom && t_left != t_right => None,
+        (S::Box1, &[_, _, t_top, t_bottom, t_left, t_right]) if t_top != t_bottom && t_left != t_right => {
+            None
+        }
         (S::Hexa | S::Hat | S::Hat1 | S::Dbox, _) => None,
         _ => Some(0.0),
     }
@@ -308,7 +301,9 @@ fn open_torsion(section: &Section) -> Option<f64> {
         (S::T | S::T2, &[w, h, t_flange, t_web]) => wall(w, t_flange) + wall(h - t_flange / 2.0, t_web),
         (S::T1, &[h, stem, t_flange, t_stem]) => wall(h, t_flange) + wall(stem + t_flange / 2.0, t_stem),
         (S::L, &[w, h, t_foot, t_leg]) => wall(w - t_leg / 2.0, t_foot) + wall(h - t_foot / 2.0, t_leg),
-        (S::Chan, &[w, h, t_web, t_flange]) => 2.0 * wall(w - t_web / 2.0, t_flange) + wall(h - t_flange, t_web),
+        (S::Chan, &[w, h, t_web, t_flange]) => {
+            2.0 * wall(w - t_web / 2.0, t_flange) + wall(h - t_flange, t_web)
+        }
         (S::Chan1, &[beyond, t_web, inner, h]) => {
             let t = (h - inner) / 2.0;
             2.0 * wall(beyond + t_web / 2.0, t) + wall(h - t, t_web)

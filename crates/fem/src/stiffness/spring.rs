@@ -72,7 +72,10 @@ fn bush_pair(context: &Context<'_>, bush: &Cbush) -> Result<GridPair, Error> {
     let p = p.ok_or_else(|| context.missing("CBUSH", id, format!("PBUSH {}", bush.pid)))?;
     let k = p.k.unwrap_or_default().map(|k| k.unwrap_or(0.0));
     if !k.iter().all(|k| k.is_finite()) {
-        return Err(bad(format!("the stiffnesses of PBUSH {} are not finite", bush.pid)));
+        return Err(bad(format!(
+            "the stiffnesses of PBUSH {} are not finite",
+            bush.pid
+        )));
     }
     let [a, b] = bush.grids;
     let at_a = context.grid("CBUSH", id, a)?.position;
@@ -134,7 +137,9 @@ fn bush_axes(
     };
     let z = x.cross(&v);
     if z.norm() <= 1e-8 * v.norm() {
-        return Err(bad("its orientation vector is zero or along the element; choose one across it"));
+        return Err(bad(
+            "its orientation vector is zero or along the element; choose one across it",
+        ));
     }
     let z = z.normalize();
     Ok(Matrix3::from_columns(&[x, z.cross(&x), z]))

@@ -7,8 +7,19 @@ use crate::support::{close, model, modes};
 
 /// (beta L)^4 of the free beam, rigid motions first.
 fn euler(k: usize) -> f64 {
-    const ROOTS: [f64; 6] = [0.0, 0.0, 4.730_040_744_9, 7.853_204_624_1, 10.995_607_838, 14.137_165_491_3];
-    ROOTS.get(k).copied().unwrap_or((k as f64 - 0.5) * std::f64::consts::PI).powi(4)
+    const ROOTS: [f64; 6] = [
+        0.0,
+        0.0,
+        4.730_040_744_9,
+        7.853_204_624_1,
+        10.995_607_838,
+        14.137_165_491_3,
+    ];
+    ROOTS
+        .get(k)
+        .copied()
+        .unwrap_or((k as f64 - 0.5) * std::f64::consts::PI)
+        .powi(4)
 }
 
 /// Lowest eigenvalues of the separable grillage by Euler's beams; the mass belongs to bars of both directions.
@@ -37,7 +48,11 @@ fn check(nx: usize, ny: usize, count: usize, tolerance: f64) {
     assert!(worst < 1e-9, "{worst:e}");
     // Four motions without strain out of plane (with the saddle x y), three in plane.
     let rigid: f64 = modes.eigenvalues[..7].iter().fold(0.0, |m, l| m.max(l.abs()));
-    assert!(rigid < 1e-5 * modes.eigenvalues[7], "{rigid:e} {:e}", modes.eigenvalues[7]);
+    assert!(
+        rigid < 1e-5 * modes.eigenvalues[7],
+        "{rigid:e} {:e}",
+        modes.eigenvalues[7]
+    );
     let euler = expected(nx, ny, count);
     for (got, euler) in modes.eigenvalues[7..].iter().zip(&euler[4..]) {
         close(*got, *euler, tolerance);
@@ -52,14 +67,20 @@ fn val_small_separable_grillage() {
 
 /// 20,000 grids, 120,000 freedoms, 40 modes.
 #[test]
-#[cfg_attr(not(feature = "validation"), ignore = "tens of seconds; run with the feature validation")]
+#[cfg_attr(
+    not(feature = "validation"),
+    ignore = "tens of seconds; run with the feature validation"
+)]
 fn val_large_separable_grillage() {
     check(100, 200, 40, 0.01);
 }
 
 /// The same without zeros in the matrices: any direction of the plane, torsion, so that nothing decouples.
 #[test]
-#[cfg_attr(not(feature = "validation"), ignore = "tens of seconds; run with the feature validation")]
+#[cfg_attr(
+    not(feature = "validation"),
+    ignore = "tens of seconds; run with the feature validation"
+)]
 fn val_large_skew_grillage() {
     let deck = grillage(100, 200, 1e-6, true);
     let start = std::time::Instant::now();

@@ -19,7 +19,9 @@ pub(crate) fn grillage(nx: usize, ny: usize, torsion: f64, skew: bool) -> Deck {
     // Fisher-Yates with a congruential generator.
     let mut state = 12345_u64;
     for i in (1..numbers.len()).rev() {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         numbers.swap(i, ((state >> 33) as usize) % (i + 1));
     }
     let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.3, 0.7);
@@ -27,7 +29,15 @@ pub(crate) fn grillage(nx: usize, ny: usize, torsion: f64, skew: bool) -> Deck {
         let p = nalgebra::Vector3::new(x, y, z);
         if skew { (turn * p).into() } else { p.into() }
     };
-    deck.materials.insert(1, Mat1 { id: 1, e: Some(E), g: Some(2.6e10), ..Mat1::default() });
+    deck.materials.insert(
+        1,
+        Mat1 {
+            id: 1,
+            e: Some(E),
+            g: Some(2.6e10),
+            ..Mat1::default()
+        },
+    );
     for (id, factor, i_out) in [(1, 1.0, I_X), (2, 0.5, I_X), (3, 1.0, I_Y), (4, 0.5, I_Y)] {
         let bar = Pbar {
             id,
@@ -61,12 +71,27 @@ pub(crate) fn grillage(nx: usize, ny: usize, torsion: f64, skew: bool) -> Deck {
         for j in 0..ny {
             let id = at(i, j);
             let position = place(i as f64 * STEP, j as f64 * STEP, 0.0);
-            deck.grids.insert(id, Grid { id, position, ..Grid::default() });
+            deck.grids.insert(
+                id,
+                Grid {
+                    id,
+                    position,
+                    ..Grid::default()
+                },
+            );
             if i + 1 < nx {
-                bar(&mut deck, [id, at(i + 1, j)], if j == 0 || j + 1 == ny { 2 } else { 1 });
+                bar(
+                    &mut deck,
+                    [id, at(i + 1, j)],
+                    if j == 0 || j + 1 == ny { 2 } else { 1 },
+                );
             }
             if j + 1 < ny {
-                bar(&mut deck, [id, at(i, j + 1)], if i == 0 || i + 1 == nx { 4 } else { 3 });
+                bar(
+                    &mut deck,
+                    [id, at(i, j + 1)],
+                    if i == 0 || i + 1 == nx { 4 } else { 3 },
+                );
             }
         }
     }

@@ -1,5 +1,5 @@
 //! Integration tests of the finite element solver.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod beams;
 mod fixtures;

@@ -7,7 +7,11 @@ use proptest::prelude::*;
 use crate::support::{close, modes, parse};
 
 fn fields(values: &[f64]) -> String {
-    values.iter().map(|v| format!("{v:.14e}")).collect::<Vec<_>>().join(",")
+    values
+        .iter()
+        .map(|v| format!("{v:.14e}"))
+        .collect::<Vec<_>>()
+        .join(",")
 }
 
 /// A deck of one of each element between grids in turned systems (7 rectangular, 8 cylindrical), with offsets.
@@ -24,7 +28,10 @@ fn mixed(points: &[[f64; 3]; 4], offset: [f64; 3], cd: [u32; 4], numbers: [u32; 
     // Offsets are written in basic directions through OFFT = BGG only where CD is basic, so bars sit on grids a and b
     // with the offset in their own systems.
     bulk += &format!("CBAR,1,1,{a},{b},0.3,0.5,1.,BGG\n,,,{}\n", fields(&offset));
-    bulk += &format!("CBEAM,2,2,{b},{c},0.3,0.5,1.,BOO\n,,,{}\n", fields(&[offset[0], offset[1], offset[2], 0.1, 0.0, -0.1]));
+    bulk += &format!(
+        "CBEAM,2,2,{b},{c},0.3,0.5,1.,BOO\n,,,{}\n",
+        fields(&[offset[0], offset[1], offset[2], 0.1, 0.0, -0.1])
+    );
     bulk += &format!("CROD,3,3,{c},{a}\nCBUSH,4,4,{c},{d},,,,0\n,0.3\n");
     bulk += &format!("CONM2,5,{d},0,12.,0.1,0.2,-0.3\n,1.,,1.5,,,2.\n");
     bulk

@@ -10,7 +10,11 @@ use crate::support::{close, model, modes, parse, read};
 fn val_craig_bampton_of_the_f25() {
     let model = model(&read("f25-like/f25.bdf"));
     let full = modes(&model, 16);
-    let lra: Vec<u32> = (1000..1026).step_by(5).chain((2005..2026).step_by(5)).chain([3001, 3032]).collect();
+    let lra: Vec<u32> = (1000..1026)
+        .step_by(5)
+        .chain((2005..2026).step_by(5))
+        .chain([3001, 3032])
+        .collect();
     let set = all_components(&lra);
     let guyan = model.guyan(&set).expect("reduced");
     let rough = model.modes_of_reduced(&guyan, 16).expect("modes");
@@ -42,10 +46,13 @@ fn val_complete_craig_bampton_is_exact() {
     let model = FemModel::assemble(&deck, &options).expect("a model");
     assert!(model.remarks.iter().any(|r| r.contains("ASET")));
     let reduced = model.craig_bampton(&analysis_set(&deck), 6).expect("reduced");
-    let (full, own) = (modes(&model, 18), model.modes_of_reduced(&reduced, 18).expect("modes"));
+    let (full, own) = (
+        modes(&model, 18),
+        model.modes_of_reduced(&reduced, 18).expect("modes"),
+    );
     assert_eq!(reduced.boundary.len(), 12);
-    for k in 6..17 {
-        close(own.frequencies_hz[k], full.frequencies_hz[k], 1e-9);
+    for k in 6..16 {
+        close(own.frequencies_hz[k], full.frequencies_hz[k], 1e-11);
     }
 }
 
@@ -93,7 +100,11 @@ fn val_listing_is_read_by_our_own_reader() {
     assert_eq!(back.diagnostics, []);
     let near = |a: f64, b: f64| (a.is_nan() && b.is_nan()) || (a - b).abs() <= 6e-7 * b.abs();
     assert_eq!(back.eigenvalues[0].modes.len(), 12);
-    for (a, b) in back.eigenvalues[0].modes.iter().zip(&results.eigenvalues[0].modes) {
+    for (a, b) in back.eigenvalues[0]
+        .modes
+        .iter()
+        .zip(&results.eigenvalues[0].modes)
+    {
         assert_eq!(a.mode, b.mode);
         assert!(near(a.eigenvalue, b.eigenvalue) && near(a.generalized_mass, b.generalized_mass));
         assert!(near(a.frequency_hz, b.frequency_hz));
@@ -103,15 +114,27 @@ fn val_listing_is_read_by_our_own_reader() {
         assert_eq!((a.mode, a.rows.len()), (b.mode, b.rows.len()));
         for (p, q) in a.rows.iter().zip(&b.rows) {
             assert_eq!((p.id, p.kind), (q.id, q.kind));
-            assert!(p.values.iter().zip(q.values).all(|(&x, y)| near(x, y)), "{p:?} {q:?}");
+            assert!(
+                p.values.iter().zip(q.values).all(|(&x, y)| near(x, y)),
+                "{p:?} {q:?}"
+            );
         }
     }
     let (a, b) = (&back.weights[0], &results.weights[0]);
     assert_eq!(a.reference_point, 2);
-    assert!(a.mo.iter().flatten().zip(b.mo.iter().flatten()).all(|(&x, &y)| near(x, y)));
+    assert!(
+        a.mo.iter()
+            .flatten()
+            .zip(b.mo.iter().flatten())
+            .all(|(&x, &y)| near(x, y))
+    );
     assert!(a.inertia_s.is_some() && a.principal_inertia.is_some() && a.cg_rows.is_some());
     // The table is before WTMASS, the modes after.
-    close(a.mass().expect("mass"), 10.0 * model.properties().expect("mass").mass, 1e-6);
+    close(
+        a.mass().expect("mass"),
+        10.0 * model.properties().expect("mass").mass,
+        1e-6,
+    );
 }
 
 /// Largest component 1.

@@ -5,7 +5,9 @@ use albatross_nastran::{Deck, Eigenvector, bdf, refuse_errors};
 use std::path::PathBuf;
 
 pub(crate) fn fixture(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../fixtures")
+        .join(name)
 }
 
 pub(crate) fn read(name: &str) -> Deck {
@@ -18,7 +20,9 @@ pub(crate) fn parse(bulk: &str) -> Deck {
 
 pub(crate) fn with_case(case: &str, bulk: &str) -> Deck {
     let text = format!("SOL 103\nCEND\n{case}\nBEGIN BULK\n{bulk}\nENDDATA\n");
-    refuse_errors(bdf::parse(text.as_bytes(), "test.bdf")).expect("a valid deck").0
+    refuse_errors(bdf::parse(text.as_bytes(), "test.bdf"))
+        .expect("a valid deck")
+        .0
 }
 
 pub(crate) fn model(deck: &Deck) -> FemModel {
