@@ -1,5 +1,6 @@
 //! Results in the structs of AVL's output files.
 
+mod loading;
 mod strips;
 
 use albatross_avl::results::{

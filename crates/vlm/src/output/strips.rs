@@ -60,7 +60,7 @@ impl Solution<'_> {
     }
 
     /// One strip, as the `.fs` file has it.
-    fn strip(&self, k: usize) -> Strip {
+    pub(super) fn strip(&self, k: usize) -> Strip {
         let lattice = self.solver.lattice();
         let (strip, own) = (&lattice.strips[k], &self.loads.strips[k]);
         let (area, chord) = (strip.area(), strip.chord);

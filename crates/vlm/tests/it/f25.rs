@@ -106,8 +106,8 @@ fn val_printed_digits_of_avl_352() {
         tally.ring
     );
     assert!(tally.wrong.is_empty(), "{:#?}", tally.wrong);
-    // Ten are one z coordinate, 0.09015 exactly, which AVL's order of operations rounds up; the other seven (four with
-    // their mirror images, one alone) lie within 1e-7 of a rounding boundary and feel AVL's tolerance in finding
+    // Ten are one z coordinate, 0.09015 exactly, which AVL's order of operations rounds up; the other seven (three with
+    // their mirror images, one alone) lie within 3e-8 of a rounding boundary and feel AVL's tolerance in finding
     // points of the aerofoils' outlines.
     assert!(tally.last_digit.len() <= 17, "{:#?}", tally.last_digit);
     // The normals of the closed nacelle ring cancel, so the direction of its own lift is rounding in AVL.
