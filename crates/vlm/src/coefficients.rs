@@ -194,10 +194,10 @@ impl Table {
         change.stability(self.condition.alpha_rad)
     }
 
-    /// By alpha with the rates in stability axes held.
-    pub(crate) fn stability_alpha(&self) -> Stability {
+    /// By alpha with the rates in stability axes held; `as_avl` with the rotation turned the wrong way, as AVL does.
+    pub(crate) fn stability_alpha(&self, as_avl: bool) -> Stability {
         // The rotation vector turns with the stability axes about y.
-        let turn = V3::new(-self.rotation.z, 0.0, self.rotation.x);
+        let turn = V3::new(-self.rotation.z, 0.0, self.rotation.x) * if as_avl { -1.0 } else { 1.0 };
         let change = self.along(&self.condition.wind_alpha(), &turn);
         self.resolved(&change)
             .plus(&self.value.stability_turn(self.condition.alpha_rad))

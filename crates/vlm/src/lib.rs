@@ -27,6 +27,7 @@
 //! | `.sb` | [`body_derivatives`](Solution::body_derivatives) |
 //! | `.fn`, `.fb` | [`surface_forces`](Solution::surface_forces), [`body_forces`](Solution::body_forces) |
 //! | `.fs`, `.fe` | [`strip_forces`](Solution::strip_forces), [`element_forces`](Solution::element_forces) |
+//! | `.vm`, `.cnc` | [`shear_moments`](Solution::shear_moments), [`strip_loads`](Solution::strip_loads) |
 //! | `.hm` | [`hinge_moments`](Solution::hinge_moments) |
 //!
 //! [`Solver::strip_slopes`] gives the lift slopes between strips, for corrections of strip theory.

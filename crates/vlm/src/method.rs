@@ -19,6 +19,10 @@ pub struct Method {
     pub body_velocity_in_forces: bool,
     /// Strip lift is normal to the velocity with sideslip, not to its projection on the plane of symmetry.
     pub lift_axis_with_sideslip: bool,
+    /// Stability derivatives as AVL prints them where they are not the exact ones: `CYb` lacks the side force of the
+    /// header's profile drag, and the derivatives by alpha at non-zero roll or yaw rate turn the rotation the wrong
+    /// way. All else is exact either way.
+    pub printed_derivatives: bool,
     /// Threads; 1 runs on the caller's alone. Results do not depend on it.
     pub threads: usize,
 }
@@ -31,6 +35,7 @@ impl Method {
         frozen_velocity: false,
         body_velocity_in_forces: false,
         lift_axis_with_sideslip: true,
+        printed_derivatives: true,
         threads: 1,
     };
 
@@ -41,6 +46,7 @@ impl Method {
         frozen_velocity: true,
         body_velocity_in_forces: true,
         lift_axis_with_sideslip: false,
+        printed_derivatives: true,
         threads: 1,
     };
 

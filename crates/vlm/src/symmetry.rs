@@ -119,7 +119,11 @@ impl Pairing {
             for dx in -1..=1 {
                 for dy in -1..=1 {
                     for dz in -1..=1 {
-                        let cell = [centre.x + dx, centre.y + dy, centre.z + dz];
+                        let cell = [
+                            centre.x.saturating_add(dx),
+                            centre.y.saturating_add(dy),
+                            centre.z.saturating_add(dz),
+                        ];
                         found.extend(at.get(&cell).into_iter().flatten().copied());
                     }
                 }

@@ -157,7 +157,7 @@ fn in_axes(stability: Stability, own: &Coefficients, axes: TrimAxes) -> Stabilit
 /// Derivative of what the targets measure by unknown `k`.
 fn derivative(table: &Table, k: usize, axes: TrimAxes) -> Stability {
     match (k, axes) {
-        (0, TrimAxes::Stability) => table.stability_alpha(),
+        (0, TrimAxes::Stability) => table.stability_alpha(false),
         (0, TrimAxes::Body) => Stability {
             moment: table.alpha_body_rates().body().1,
             ..table.stability_alpha_body_rates()

@@ -1,5 +1,6 @@
 //! Results in the structs of AVL's output files.
 
+mod loading;
 mod strips;
 
 use albatross_avl::results::{
@@ -135,13 +136,17 @@ impl Solution<'_> {
         }
     }
 
-    /// Derivatives in stability axes: the `.st` file. As in AVL, `CYb` leaves out the side force of the header's
-    /// profile drag, which [`Self::body_derivatives`] holds.
+    /// Derivatives in stability axes, with the rates in stability axes held: the `.st` file. What
+    /// [`Method::printed_derivatives`](crate::Method::printed_derivatives) says holds here.
     pub fn stability_derivatives(&self, run_case: &str) -> StabilityDerivatives {
         let lattice = self.solver.lattice();
         let table = &self.table;
-        let alpha = table.stability_alpha();
-        let beta = table.resolved(&table.beta());
+        let printed = self.solver.method().printed_derivatives;
+        let alpha = table.stability_alpha(printed);
+        let mut beta = table.resolved(&table.beta());
+        if !printed {
+            beta.side += table.profile_side_force_beta();
+        }
         let [roll, pitch, yaw] = [0, 1, 2].map(|axis| table.stability_rate(axis));
         let named = |changes: &[NormalChange], first: usize| {
             let columns = changes.iter().enumerate();

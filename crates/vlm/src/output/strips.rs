@@ -60,7 +60,7 @@ impl Solution<'_> {
     }
 
     /// One strip, as the `.fs` file has it.
-    fn strip(&self, k: usize) -> Strip {
+    pub(super) fn strip(&self, k: usize) -> Strip {
         let lattice = self.solver.lattice();
         let (strip, own) = (&lattice.strips[k], &self.loads.strips[k]);
         let (area, chord) = (strip.area(), strip.chord);
@@ -148,7 +148,7 @@ impl Solution<'_> {
             let v = &lattice.vortices[k];
             Element {
                 index: k + 1,
-                position: v.force_point.into(),
+                position: ((v.ends[0] + v.ends[1]) * 0.5).into(),
                 dx: v.dx,
                 slope: v.slope,
                 delta_cp: v.normal.dot(&self.loads.vortices[k]) / (v.dx * strip.width),

@@ -47,6 +47,10 @@ fn val_stability_derivatives_are_the_limits_of_differences() {
     lattice.cd_p = 0.02;
     let x0 = [0.06, 0.05, 0.03, 0.01, -0.02, 3.0, -2.0, 1.0, 4.0, 0.5];
     for method in [Method::AVL_352, Method::AVL_332] {
+        let method = Method {
+            printed_derivatives: false,
+            ..method
+        };
         let solver = Solver::new(&lattice, &method, 0.4).unwrap();
         let st = |x: &[f64]| solver.solve(&condition(x)).unwrap().stability_derivatives("");
         let base = st(&x0);
@@ -63,8 +67,6 @@ fn val_stability_derivatives_are_the_limits_of_differences() {
                 .chain(&base.designs)
                 .map(|c| column(&c.column)),
         );
-        // AVL leaves the side force of the header's profile drag out of CYb.
-        exact[1][1] -= lattice.cd_p * x0[1].cos();
         let mut worst: f64 = 0.0;
         for (k, exact) in exact.iter().enumerate() {
             // AVL up to 3.40 leaves part of the controls' derivatives out.

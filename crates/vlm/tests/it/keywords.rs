@@ -135,3 +135,25 @@ fn regress_missing_files_are_remarks() {
     let (lattice, remarks) = Lattice::new(&geometry, &|_| None).unwrap();
     assert_eq!((remarks.len(), lattice.bodies.len()), (3, 0), "{remarks:?}");
 }
+
+#[test]
+fn prop_shear_at_the_root_is_the_sum_of_the_strips() {
+    let text = header("0 0 0", 6.0, 1.0, 6.0, 0.25)
+        + &surface("w", "4 1 60 0", "YDUPLICATE\n0", &["0 0 0 1 0", "1 3 0.3 0.5 -2"]);
+    at_alpha(&lattice(&text), 4.0, |s| {
+        let (shears, strips, loads) = (s.shear_moments(), s.strip_forces(), s.strip_loads());
+        assert_eq!(loads.strips.len(), 120);
+        for (shear, strips) in shears.surfaces.iter().zip(&strips.surfaces) {
+            let sum: f64 = strips.strips.iter().map(|s| s.c_cl * s.area / s.chord).sum();
+            let root = shear.stations.first().unwrap();
+            // The trapezoidal rule loses half a strip's width of load at the ends.
+            assert!(
+                (root.shear * 6.0 / sum - 1.0).abs() < 5e-3,
+                "{} {sum}",
+                root.shear * 6.0
+            );
+            assert_eq!(root.moment < 0.0, shear.name.ends_with("(YDUP)"));
+            assert_eq!(shear.stations.len(), strips.strips.len() + 2);
+        }
+    });
+}
