@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
 
 mod case_page;
+mod export;
 mod formats_page;
 mod identify;
 mod options;
