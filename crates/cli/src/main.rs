@@ -2,12 +2,17 @@
 
 mod args;
 mod case;
+mod check;
+mod excerpt;
 mod figures;
 mod identification;
 mod lattice;
 mod neutral;
+mod new;
 mod output;
+mod progress;
 mod run;
+mod shell;
 mod solve_modes;
 mod tables;
 
@@ -18,6 +23,8 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match &arguments.command {
+        Command::New(options) => new::new(options),
+        Command::Check(options) => check::check(options),
         Command::Run(options) => run::run(options),
         Command::Modes(options) => case::modes(options),
         Command::Strips(options) => case::strips(options),
@@ -31,12 +38,20 @@ fn main() -> ExitCode {
         Command::Residuals(options) => identification::residuals(options),
         Command::SolveModes(options) => solve_modes::solve_modes(options),
         Command::Vlm(options) => lattice::vlm(options),
-        Command::Wing { file } => neutral::wing(file),
-        Command::Aircraft { file } => neutral::aircraft(file),
+        Command::Wing(options) => neutral::wing(&options.file),
+        Command::Aircraft(options) => neutral::aircraft(&options.file),
+        Command::Completions { shell } => shell::completions(*shell),
+        Command::Man(options) => shell::man(options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(output::Failure::Closed) => ExitCode::SUCCESS,
+        // What was found is printed already.
+        Err(output::Failure::Found) => ExitCode::FAILURE,
+        Err(error @ output::Failure::Usage(_)) => {
+            output::error(&error);
+            ExitCode::from(2)
+        }
         Err(error) => {
             output::error(&error);
             ExitCode::FAILURE

@@ -248,3 +248,31 @@ pub(crate) fn history_summary(name: &str, history: &TimeHistory) -> Result<Table
     }
     Ok(table)
 }
+
+/// Least and greatest value of each sensor in each simulation.
+pub(crate) fn extremes(histories: &[(String, TimeHistory)]) -> Result<Table, ReportError> {
+    let mut table = Table::new(
+        "Simulations",
+        [
+            Column::text("manoeuvre"),
+            Column::text("output"),
+            Column::text("unit"),
+            Column::new("in trim", "", Format::Significant(5)),
+            Column::new("least", "", Format::Significant(5)),
+            Column::new("greatest", "", Format::Significant(5)),
+        ],
+    );
+    for (name, history) in histories {
+        for (channel, series) in history.channels.iter().zip(&history.series) {
+            table.push([
+                Cell::from(name.as_str()),
+                Cell::from(channel.name.as_str()),
+                Cell::from(channel.unit.as_str()),
+                Cell::from(series.first().copied()),
+                Cell::from(series.iter().copied().reduce(f64::min)),
+                Cell::from(series.iter().copied().reduce(f64::max)),
+            ])?;
+        }
+    }
+    Ok(table)
+}
