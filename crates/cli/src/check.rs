@@ -21,7 +21,11 @@ pub(crate) fn check(options: &CheckOptions) -> Result<(), Failure> {
     } else {
         print(&text(options, &report, Style::of(&std::io::stdout())))?;
     }
-    let refused = if options.strict { Severity::Warning } else { Severity::Error };
+    let refused = if options.strict {
+        Severity::Warning
+    } else {
+        Severity::Error
+    };
     if report.worst() >= Some(refused) {
         return Err(Failure::Found);
     }

@@ -24,11 +24,16 @@ pub(crate) fn of_place(place: &str, what: &str, colour: bool) -> Option<String> 
     }
     let span = quoted_span(source, what)
         .or_else(|| column.and_then(|c| word_at(source, c)))
+        .or_else(|| last_number(source, what))
         .unwrap_or_else(|| trimmed(source));
     let snippet = Snippet::source(source)
         .line_start(line)
         .annotation(AnnotationKind::Primary.span(span));
-    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    let renderer = if colour {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    };
     let group = Level::ERROR.no_name().primary_title("").element(snippet);
     let drawn = renderer.render(&[group]).to_string();
     // The title is printed by the caller, as the one line that scripts read.
@@ -46,14 +51,34 @@ fn split(place: &str) -> Option<(&str, usize, Option<usize>)> {
     }
 }
 
-/// Where the first text in quotes of the message stands in the line.
+/// Where the longest text in quotes of the message stands in the line.
 fn quoted_span(source: &str, what: &str) -> Option<Range<usize>> {
-    let quotes = ['`', '"'];
-    quotes
+    ['`', '"']
         .iter()
         .flat_map(|q| what.split(*q).skip(1).step_by(2))
         .filter(|text| !text.trim().is_empty())
-        .find_map(|text| source.find(text).map(|at| at..at + text.len()))
+        .filter_map(|text| source.find(text).map(|at| at..at + text.len()))
+        .max_by_key(Range::len)
+}
+
+/// Where the last whole number of the message, such as that of a grid, stands in the line as a word.
+fn last_number(source: &str, what: &str) -> Option<Range<usize>> {
+    let is_number = |word: &&str| word.len() > 1 && word.bytes().all(|b| b.is_ascii_digit());
+    let words = |text: &'_ str| -> Vec<String> {
+        text.split(|c: char| !c.is_ascii_alphanumeric())
+            .filter(is_number)
+            .map(str::to_owned)
+            .collect()
+    };
+    let number = words(what).pop()?;
+    source
+        .rmatch_indices(number.as_str())
+        .map(|(at, _)| at..at + number.len())
+        .find(|span| {
+            let beside = |c: Option<char>| c.is_none_or(|c| !c.is_ascii_alphanumeric());
+            beside(source.get(..span.start).and_then(|t| t.chars().next_back()))
+                && beside(source.get(span.end..).and_then(|t| t.chars().next()))
+        })
 }
 
 /// The word that holds a column, from 1.
@@ -79,6 +104,16 @@ mod tests {
         assert_eq!(split("a/b.avl:4:1"), Some(("a/b.avl", 4, Some(1))));
         assert_eq!(split("a/b.bdf:22"), Some(("a/b.bdf", 22, None)));
         assert_eq!(split("a/b.bdf"), None);
+    }
+
+    #[test]
+    fn val_what_is_marked() {
+        let bar = "CBAR       11003   11003    1002    1003      0.";
+        let span = last_number(bar, "CBAR 11003: GB is grid 1003, which is not in the deck");
+        assert_eq!(span, Some(36..40));
+        let line = "    CLa =   7.29x941    CLb =   0.000000";
+        let span = quoted_span(line, "field `CLa`: `7.29x941` is not a number");
+        assert_eq!(span, Some(12..20));
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(crate) fn new(options: &NewOptions) -> Result<(), Failure> {
         return Err(Failure::Other(format!(
             "{}: there is already {}; choose another directory, or move {} away",
             dir.display(),
-            taken.join(" and "),
+            taken.join(", "),
             if taken.len() == 1 { "it" } else { "them" }
         )));
     }
@@ -30,7 +30,10 @@ pub(crate) fn new(options: &NewOptions) -> Result<(), Failure> {
     for (name, text) in FILES {
         write(&dir.join(name), text)?;
     }
-    let files: Vec<String> = FILES.iter().map(|(name, _)| dir.join(name).display().to_string()).collect();
+    let files: Vec<String> = FILES
+        .iter()
+        .map(|(name, _)| dir.join(name).display().to_string())
+        .collect();
     if options.json {
         return print_json(&json!({ "files": files }));
     }

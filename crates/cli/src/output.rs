@@ -146,7 +146,8 @@ pub(crate) fn error(failure: &Failure) {
         };
         remark(&message);
         if style.terminal
-            && let Some(excerpt) = excerpt::of_message(line.strip_prefix("error: ").unwrap_or(line), style.colour)
+            && let Some(excerpt) =
+                excerpt::of_message(line.strip_prefix("error: ").unwrap_or(line), style.colour)
         {
             remark(&excerpt);
         }

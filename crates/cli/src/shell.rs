@@ -20,7 +20,10 @@ pub(crate) fn man(options: &ManOptions) -> Result<(), Failure> {
     })?;
     let names = gathered.names()?;
     gathered.move_to(&options.dir)?;
-    let files: Vec<String> = names.iter().map(|n| options.dir.join(n).display().to_string()).collect();
+    let files: Vec<String> = names
+        .iter()
+        .map(|n| options.dir.join(n).display().to_string())
+        .collect();
     if options.json {
         print_json(&json!({ "files": files }))
     } else if options.quiet {

@@ -54,12 +54,18 @@ fn surfaces(subject: &Subject, files: &Files, found: &mut Findings) {
             match (own.y_duplicate, &surface.image_lra) {
                 (Some(_), None) => found.error(
                     &place,
-                    format!("`{}` has a mirror image (YDUPLICATE), but no axis for it", surface.name),
+                    format!(
+                        "`{}` has a mirror image (YDUPLICATE), but no axis for it",
+                        surface.name
+                    ),
                     "add `image_lra`: the load reference axis of the other side",
                 ),
                 (None, Some(axis)) => found.warning(
                     &place,
-                    format!("`{}` has no mirror image, but image_lra = \"{axis}\"", surface.name),
+                    format!(
+                        "`{}` has no mirror image, but image_lra = \"{axis}\"",
+                        surface.name
+                    ),
                     "remove image_lra, or add YDUPLICATE to the geometry",
                 ),
                 _ => {}
@@ -80,20 +86,29 @@ fn surfaces(subject: &Subject, files: &Files, found: &mut Findings) {
         if !left.is_empty() {
             found.note(
                 &subject.at("aerodynamics.surface"),
-                format!("{} carry no strips: they count in the rigid derivatives alone", left.join(", ")),
+                format!(
+                    "without strips, in the rigid derivatives alone: {}",
+                    left.join(", ")
+                ),
                 "",
             );
         }
     }
     if let (Some(geometry), [Some(low), _]) = (&files.geometry, &files.strips) {
-        let missing = low
-            .surfaces
-            .iter()
-            .find(|s| !geometry.surfaces.iter().any(|g| same(&g.name, base_name(&s.name))));
+        let missing = low.surfaces.iter().find(|s| {
+            !geometry
+                .surfaces
+                .iter()
+                .any(|g| same(&g.name, base_name(&s.name)))
+        });
         if let Some(surface) = missing {
             found.warning(
                 &strip_file(subject, files, 0),
-                format!("surface `{}` is not in {}", surface.name.trim(), aerodynamics.geometry),
+                format!(
+                    "surface `{}` is not in {}",
+                    surface.name.trim(),
+                    aerodynamics.geometry
+                ),
                 "run AVL with this geometry: the controls' lift is spread by it",
             );
         }
@@ -120,7 +135,10 @@ fn symmetry(subject: &Subject, files: &Files, geometry: &Geometry, found: &mut F
     if geometry.i_zsym != 0 {
         found.warning(
             &files.path(&subject.case.aerodynamics.geometry),
-            format!("iZsym = {}: a ground or free-surface image acts on the aircraft", geometry.i_zsym),
+            format!(
+                "iZsym = {}: a ground or free-surface image acts on the aircraft",
+                geometry.i_zsym
+            ),
             "set iZsym to 0 for free flight",
         );
     }
@@ -185,16 +203,26 @@ fn same_run(
         if differ(run, file) {
             found.note(
                 &place,
-                format!("{name} is {run} here and {file} in {}; moments are taken about the run's", aerodynamics.geometry),
+                format!(
+                    "{name} is {run} here and {file} in {}; moments are taken about the run's",
+                    aerodynamics.geometry
+                ),
                 "check that a .run file moved it on purpose",
             );
         }
     }
-    let count: usize = files.strips[0].iter().flat_map(|s| &s.surfaces).map(|s| s.strips.len()).sum();
+    let count: usize = files.strips[0]
+        .iter()
+        .flat_map(|s| &s.surfaces)
+        .map(|s| s.strips.len())
+        .sum();
     if files.strips[0].is_some() && derivatives.run.n_strips != 0 && derivatives.run.n_strips != count {
         found.warning(
             &place,
-            format!("the run has {} strips, the strip files {count}", derivatives.run.n_strips),
+            format!(
+                "the run has {} strips, the strip files {count}",
+                derivatives.run.n_strips
+            ),
             "write derivatives and strips in one session of AVL, with one geometry",
         );
     }
@@ -216,7 +244,9 @@ impl Wing {
         let mut areas: BTreeMap<String, f64> = BTreeMap::new();
         for surface in &strips.surfaces {
             let area: f64 = surface.strips.iter().map(|s| s.area).sum();
-            *areas.entry(base_name(&surface.name).trim().to_lowercase()).or_default() += area;
+            *areas
+                .entry(base_name(&surface.name).trim().to_lowercase())
+                .or_default() += area;
         }
         let named = |name: &str| {
             let surfaces = &subject.case.aerodynamics.surfaces;
@@ -234,7 +264,11 @@ impl Wing {
         let (mut tangent, mut weight) = (0.0, 0.0);
         for surface in of_wing() {
             for strip in &surface.strips {
-                let half = if strip.chord > 0.0 { 0.5 * strip.area / strip.chord } else { 0.0 };
+                let half = if strip.chord > 0.0 {
+                    0.5 * strip.area / strip.chord
+                } else {
+                    0.0
+                };
                 low = low.min(strip.y_le - half);
                 high = high.max(strip.y_le + half);
             }
@@ -248,18 +282,30 @@ impl Wing {
                 }
             }
         }
-        let display = of_wing().next().map_or(name.clone(), |s| base_name(&s.name).trim().to_owned());
+        let display = of_wing()
+            .next()
+            .map_or(name.clone(), |s| base_name(&s.name).trim().to_owned());
         Some(Self {
             name: display,
             area,
             span: (high - low).max(0.0),
-            sweep_rad: if weight > 0.0 { (tangent / weight).atan().abs() } else { 0.0 },
+            sweep_rad: if weight > 0.0 {
+                (tangent / weight).atan().abs()
+            } else {
+                0.0
+            },
         })
     }
 }
 
 /// The reference shape against the strips of the wing.
-fn reference(subject: &Subject, files: &Files, geometry: &Geometry, strips: &StripForces, found: &mut Findings) {
+fn reference(
+    subject: &Subject,
+    files: &Files,
+    geometry: &Geometry,
+    strips: &StripForces,
+    found: &mut Findings,
+) {
     let Some(wing) = Wing::find(subject, strips).filter(|w| w.area > 0.0 && w.span > 0.0) else {
         return;
     };
@@ -275,9 +321,17 @@ fn reference(subject: &Subject, files: &Files, geometry: &Geometry, strips: &Str
             (geometry.s_ref, geometry.c_ref, geometry.b_ref, file)
         }
     };
-    let mut compare = |what: &str, given: f64, measured: f64, unit: &str, range: std::ops::RangeInclusive<f64>| {
+    let mut compare = |what: &str,
+                       given: f64,
+                       measured: f64,
+                       unit: &str,
+                       range: std::ops::RangeInclusive<f64>| {
         if given <= 0.0 || !given.is_finite() {
-            found.error(&place, format!("{what} is {given}"), "give a positive number in the header of the geometry");
+            found.error(
+                &place,
+                format!("{what} is {given}"),
+                "give a positive number in the header of the geometry",
+            );
             return;
         }
         let ratio = given / measured;
@@ -305,12 +359,21 @@ fn reference(subject: &Subject, files: &Files, geometry: &Geometry, strips: &Str
     };
     compare("the reference area", area, wing.area, "m2", 0.7..=1.4);
     compare("the reference span", span, wing.span, "m", 0.8..=1.25);
-    compare("the reference chord", chord, wing.area / wing.span, "m", 0.7..=1.7);
+    compare(
+        "the reference chord",
+        chord,
+        wing.area / wing.span,
+        "m",
+        0.7..=1.7,
+    );
     let printed = |r: &Reference| (r.s_ref - geometry.s_ref).abs() > DIGITS * geometry.s_ref.abs();
     if let Some(other) = strips.reference.as_ref().filter(|r| printed(r)) {
         found.warning(
             &strip_file(subject, files, 0),
-            format!("Sref is {} here and {} in the geometry", other.s_ref, geometry.s_ref),
+            format!(
+                "Sref is {} here and {} in the geometry",
+                other.s_ref, geometry.s_ref
+            ),
             "write the strip files with this geometry",
         );
     }
@@ -331,7 +394,11 @@ fn controls(subject: &Subject, files: &Files, found: &mut Findings) {
     let place = subject.at("flight.trim_control");
     let is_known = known.iter().any(|k| k == trim);
     if !is_known {
-        found.error(&place, format!("`{trim}` is no control of the AVL files"), names::choose(trim, &known));
+        found.error(
+            &place,
+            format!("`{trim}` is no control of the AVL files"),
+            names::choose(trim, &known),
+        );
     }
     if let (Some(geometry), Some(derivatives)) = (&files.geometry, &files.derivatives) {
         let drawn = geometry.control_names();
@@ -341,7 +408,10 @@ fn controls(subject: &Subject, files: &Files, found: &mut Findings) {
             absent.map(ToString::to_string).collect()
         };
         for (absent, where_not) in [
-            (lacks(&drawn, &computed), subject.case.aerodynamics.geometry.clone()),
+            (
+                lacks(&drawn, &computed),
+                subject.case.aerodynamics.geometry.clone(),
+            ),
             (lacks(&computed, &drawn), derivatives_file(subject, files)),
         ] {
             if !absent.is_empty() {
@@ -376,8 +446,16 @@ fn controls(subject: &Subject, files: &Files, found: &mut Findings) {
             }
         }
     }
-    let engines_used = subject.case.variants.iter().any(|v| v.thrust_line == ThrustLine::Engines);
+    let engines_used = subject
+        .case
+        .variants
+        .iter()
+        .any(|v| v.thrust_line == ThrustLine::Engines);
     if known.contains(&"thrust") && engines_used {
-        found.warning(&place, "a control is named `thrust`, as the engines' input", "rename the control");
+        found.warning(
+            &place,
+            "a control is named `thrust`, as the engines' input",
+            "rename the control",
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! The model of each variant, built and trimmed: what the stages themselves refuse, and trims out of the ordinary.
 
-use super::document::Document;
 use super::Findings;
+use super::document::Document;
 use crate::case::Case;
 use crate::inputs::Inputs;
 use crate::model::Model;
@@ -37,7 +37,10 @@ pub(super) fn models(document: &Document, case: Case, directory: &Path, found: &
         if alpha.abs() > LARGE_ALPHA_DEG {
             found.warning(
                 &place,
-                format!("variant `{}` trims at an incidence of {alpha:.2} deg", variant.name),
+                format!(
+                    "variant `{}` trims at an incidence of {alpha:.2} deg",
+                    variant.name
+                ),
                 "coefficients are linear: fly faster or lower, and check mass and reference area",
             );
         }
@@ -54,7 +57,10 @@ pub(super) fn models(document: &Document, case: Case, directory: &Path, found: &
         if trim.thrust < 0.0 {
             found.warning(
                 &place,
-                format!("variant `{}` trims with a thrust of {:.4e} N: it brakes", variant.name, trim.thrust),
+                format!(
+                    "variant `{}` trims with a thrust of {:.4e} N: it brakes",
+                    variant.name, trim.thrust
+                ),
                 "check profile drag (CDp) and the flight-path angle",
             );
         }

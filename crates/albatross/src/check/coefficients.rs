@@ -20,7 +20,11 @@ fn signs(subject: &Subject, files: &Files, derivatives: &StabilityDerivatives, f
     let place = name.map_or_else(|| subject.at("aerodynamics.results"), |n| files.path(n));
     let lift = derivatives.alpha.lift;
     if lift <= 0.0 {
-        found.error(&place, format!("CLa is {lift}: lift falls with incidence"), "run AVL again; look at the geometry");
+        found.error(
+            &place,
+            format!("CLa is {lift}: lift falls with incidence"),
+            "run AVL again; look at the geometry",
+        );
         return;
     }
     if lift < 1.0 || lift > 15.0 {
@@ -30,11 +34,22 @@ fn signs(subject: &Subject, files: &Files, derivatives: &StabilityDerivatives, f
             "check Sref and the units of the geometry: aircraft have 3 to 9",
         );
     }
+    stability(files, derivatives, &place, found);
     for (name, value, sign, meaning) in [
-        ("Cmq", derivatives.pitch_rate.pitch, -1.0, "pitching is not damped"),
+        (
+            "Cmq",
+            derivatives.pitch_rate.pitch,
+            -1.0,
+            "pitching is not damped",
+        ),
         ("Clp", derivatives.roll_rate.roll, -1.0, "rolling is not damped"),
         ("Cnr", derivatives.yaw_rate.yaw, -1.0, "yawing is not damped"),
-        ("Cnb", derivatives.beta.yaw, 1.0, "the aircraft is not stable in yaw"),
+        (
+            "Cnb",
+            derivatives.beta.yaw,
+            1.0,
+            "the aircraft is not stable in yaw",
+        ),
     ] {
         if value * sign < 0.0 {
             found.warning(
@@ -46,6 +61,25 @@ fn signs(subject: &Subject, files: &Files, derivatives: &StabilityDerivatives, f
     }
 }
 
+/// Static stability: the neutral point against the centre of gravity that flies.
+fn stability(files: &Files, derivatives: &StabilityDerivatives, place: &str, found: &mut Findings) {
+    let Some(mass) = &files.flying else { return };
+    let reference = &derivatives.run.reference;
+    let neutral = reference.x_ref - reference.c_ref * derivatives.alpha.pitch / derivatives.alpha.lift;
+    let margin = (neutral - mass.cg[0]) / reference.c_ref;
+    let what = format!(
+        "the neutral point is at x = {neutral:.3} m, the centre of gravity at {:.3} m: a static margin of {:.0} %",
+        mass.cg[0],
+        100.0 * margin
+    );
+    let cure = "check the mass state, Xref of the AVL run, and the tail";
+    if margin < 0.0 {
+        found.warning(place, format!("{what}; the rigid aircraft is unstable"), cure);
+    } else if margin > 1.0 {
+        found.warning(place, format!("{what}; more than any aircraft"), cure);
+    }
+}
+
 fn corrections(subject: &Subject, files: &Files, found: &mut Findings) {
     let variants = &subject.case.variants;
     let used = variants.iter().any(|v| v.corrections);
@@ -53,7 +87,10 @@ fn corrections(subject: &Subject, files: &Files, found: &mut Findings) {
         for (i, variant) in variants.iter().enumerate().filter(|(_, v)| v.corrections) {
             found.error(
                 &subject.at(&format!("variant.{i}.corrections")),
-                format!("variant `{}` asks for corrections that the case does not have", variant.name),
+                format!(
+                    "variant `{}` asks for corrections that the case does not have",
+                    variant.name
+                ),
                 "add [corrections] with lift_slopes or derivatives, or remove `corrections = true`",
             );
         }
@@ -67,7 +104,11 @@ fn corrections(subject: &Subject, files: &Files, found: &mut Findings) {
         );
     }
     if corrections.lift_slopes.is_none() && corrections.derivatives.is_none() {
-        found.warning(&subject.at("corrections"), "[corrections] name no data", "name lift_slopes or derivatives");
+        found.warning(
+            &subject.at("corrections"),
+            "[corrections] name no data",
+            "name lift_slopes or derivatives",
+        );
     }
     if let (Some(elevator), Some(known)) = (&corrections.elevator, super::aerodynamics::control_names(files))
         && !known.contains(&elevator.as_str())
@@ -85,7 +126,13 @@ fn corrections(subject: &Subject, files: &Files, found: &mut Findings) {
 fn slopes(subject: &Subject, files: &Files, found: &mut Findings) {
     let Some(table) = &files.slope_table else { return };
     let place = subject.at("corrections.lift_slopes");
-    let known: Vec<&str> = subject.case.aerodynamics.surfaces.iter().map(|s| s.name.trim()).collect();
+    let known: Vec<&str> = subject
+        .case
+        .aerodynamics
+        .surfaces
+        .iter()
+        .map(|s| s.name.trim())
+        .collect();
     let is_known = |name: &str| known.iter().any(|k| k.eq_ignore_ascii_case(base_name(name)));
     if !table.rows.iter().any(|r| is_known(&r.surface)) {
         let other = table.rows.first().map_or("", |r| r.surface.as_str());
@@ -104,7 +151,9 @@ fn slopes(subject: &Subject, files: &Files, found: &mut Findings) {
 }
 
 fn longitudinal(subject: &Subject, files: &Files, found: &mut Findings) {
-    let (Some(given), Some(avl)) = (&files.longitudinal, &files.derivatives) else { return };
+    let (Some(given), Some(avl)) = (&files.longitudinal, &files.derivatives) else {
+        return;
+    };
     let place = subject.at("corrections.derivatives");
     for (name, value, of_avl) in [
         ("CLa", given.CLa, avl.alpha.lift),

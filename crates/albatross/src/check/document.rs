@@ -1,7 +1,7 @@
 //! The case file as text: misspelt keys, and the line of every key.
 
-use super::names::{expected, nearest};
 use super::Findings;
+use super::names::{expected, nearest};
 use crate::case::Case;
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
@@ -126,7 +126,11 @@ pub(super) fn read(text: &str, file: &str, found: &mut Findings) -> (Document, O
         let known = expected(message);
         let meant = nearest(name, known.iter().map(String::as_str));
         let choices = known.join(", ");
-        let kind = if message.starts_with("unknown field") { "key" } else { "choice" };
+        let kind = if message.starts_with("unknown field") {
+            "key"
+        } else {
+            "choice"
+        };
         let cure = match meant {
             Some(meant) => format!("did you mean `{meant}`? There are: {choices}"),
             None => format!("use one of: {choices}"),
@@ -188,10 +192,22 @@ mod tests {
     fn val_lines_of_keys() {
         let document = Document::new(CASE, "case.toml");
         let line = |text: &str| 1 + CASE.lines().position(|l| l.starts_with(text)).unwrap();
-        assert_eq!(document.at("flight.mach"), format!("case.toml:{}", line("mach = ")));
-        assert_eq!(document.at("sensor.5.grid"), format!("case.toml:{}", line("grid = 3003")));
-        assert_eq!(document.at("structure.solve"), format!("case.toml:{}", line("[structure]")));
-        assert_eq!(document.text("aerodynamics.strips.1.file"), Some("avl_out/alpha2.fs"));
+        assert_eq!(
+            document.at("flight.mach"),
+            format!("case.toml:{}", line("mach = "))
+        );
+        assert_eq!(
+            document.at("sensor.5.grid"),
+            format!("case.toml:{}", line("grid = 3003"))
+        );
+        assert_eq!(
+            document.at("structure.solve"),
+            format!("case.toml:{}", line("[structure]"))
+        );
+        assert_eq!(
+            document.text("aerodynamics.strips.1.file"),
+            Some("avl_out/alpha2.fs")
+        );
     }
 
     /// Two misspelt keys and a misspelt choice: each is found, and the case is read as it was meant.
@@ -208,7 +224,10 @@ mod tests {
         let cures: Vec<&str> = found.list.iter().map(|f| f.cure.as_str()).collect();
         assert_eq!(cures.len(), 4, "{cures:?}");
         for meant in ["`modes`", "`trim_control`", "`cubic`"] {
-            assert!(cures.iter().any(|c| c.contains(&format!("did you mean {meant}"))), "{cures:?}");
+            assert!(
+                cures.iter().any(|c| c.contains(&format!("did you mean {meant}"))),
+                "{cures:?}"
+            );
         }
     }
 }

@@ -1,15 +1,16 @@
 //! The files that a case names, each read on its own.
 
 use super::document::Document;
-use super::names::nearest;
+use super::names::{self, nearest};
 use super::{Findings, Severity};
 use crate::case::SOLVE;
 use crate::inputs::{Inputs, read_text};
 use crate::tables;
+use albatross_avl::AvlError;
 use albatross_avl::geometry::Geometry;
 use albatross_avl::mass::MassFile;
 use albatross_avl::results::{StabilityDerivatives, StripForces};
-use albatross_avl::AvlError;
+use albatross_fem::MassProperties;
 use albatross_flight::derivatives::LongitudinalCorrections;
 use albatross_nastran::frames::Frames;
 use albatross_nastran::{Deck, ModalResults, bdf, f06};
@@ -32,6 +33,8 @@ pub(super) struct Files {
     pub(super) mass: Option<(String, MassFile)>,
     pub(super) slope_table: Option<SlopeTable>,
     pub(super) longitudinal: Option<LongitudinalCorrections>,
+    /// The mass that flies, once the structure is checked.
+    pub(super) flying: Option<MassProperties>,
     /// Whether modes and aerodynamics were computed for the check.
     computed: bool,
 }
@@ -57,12 +60,28 @@ impl Files {
         let origin = if self.computed { "computed" } else { "read" };
         if let Some(deck) = &self.deck {
             let elements = deck.bars.len() + deck.beams.len() + deck.rods.len() + deck.springs.len();
-            facts.push(format!("deck: {} grids, {elements} bars, beams, rods and springs", deck.grids.len()));
+            facts.push(format!(
+                "deck: {} grids, {elements} bars, beams, rods and springs",
+                deck.grids.len()
+            ));
+        }
+        if let Some(mass) = &self.flying {
+            let at = mass
+                .cg
+                .map(|v| names::digits((v * 1e4).round() * 1e-4, 7))
+                .join(", ");
+            facts.push(format!(
+                "mass: {} kg, centre of gravity at {at} m",
+                names::digits(mass.mass, 7)
+            ));
         }
         let frequencies = self.results.iter().flat_map(|r| r.eigenvalues.first());
         for table in frequencies {
             let last = table.modes.last().map_or(0.0, |m| m.frequency_hz);
-            facts.push(format!("modes, {origin}: {} up to {last:.2} Hz", table.modes.len()));
+            facts.push(format!(
+                "modes, {origin}: {} up to {last:.2} Hz",
+                table.modes.len()
+            ));
         }
         if let Some(geometry) = &self.geometry {
             let names: Vec<&str> = geometry.surfaces.iter().map(|s| s.name.trim()).collect();
@@ -105,7 +124,9 @@ pub(super) fn read(document: &Document, directory: &Path, found: &mut Findings) 
                 };
                 files.grids = frames.grids().iter().map(place).collect();
             }
-            Err(error) => reader.found.of_error(&error.to_string(), &document.at("structure.deck")),
+            Err(error) => reader
+                .found
+                .of_error(&error.to_string(), &document.at("structure.deck")),
         }
     }
     files.results = reader.file("structure.results", results);
@@ -118,10 +139,13 @@ pub(super) fn read(document: &Document, directory: &Path, found: &mut Findings) 
         .map(|key| reader.file(key, |path, found| avl(path, found, StripForces::parse)));
     let provenance = document.text("corrections.provenance").unwrap_or_default();
     files.slope_table = reader.file("corrections.lift_slopes", |path, found| {
-        table(path, found, |text, file| tables::slope_table(text, file, provenance))
+        table(path, found, |text, file| {
+            tables::slope_table(text, file, provenance)
+        })
     });
-    files.longitudinal =
-        reader.file("corrections.derivatives", |path, found| table(path, found, tables::longitudinal));
+    files.longitudinal = reader.file("corrections.derivatives", |path, found| {
+        table(path, found, tables::longitudinal)
+    });
     files
 }
 
@@ -226,7 +250,11 @@ fn geometry(path: &Path, found: &mut Findings) -> Option<Geometry> {
             .message
             .split_once("; ")
             .unwrap_or((remark.message.as_str(), ""));
-        found.note(&remark.at.to_string(), format!("{}: {what}", remark.keyword), cure);
+        found.note(
+            &remark.at.to_string(),
+            format!("{}: {what}", remark.keyword),
+            cure,
+        );
     }
     Some(geometry)
 }
@@ -243,11 +271,7 @@ fn beside(document: &Document, directory: &Path, found: &mut Findings) -> Option
     Some((path.display().to_string(), mass))
 }
 
-fn avl<T>(
-    path: &Path,
-    found: &mut Findings,
-    parse: impl Fn(&str, &str) -> Result<T, AvlError>,
-) -> Option<T> {
+fn avl<T>(path: &Path, found: &mut Findings, parse: impl Fn(&str, &str) -> Result<T, AvlError>) -> Option<T> {
     let name = path.display().to_string();
     match albatross_avl::read_text(path).and_then(|text| parse(&text, &name)) {
         Ok(read) => Some(read),

@@ -19,7 +19,10 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
         } else {
             "give an altitude from -2000 to 32000 m".to_owned()
         };
-        let what = format!("an altitude of {} m, where the atmosphere is not modelled", flight.altitude);
+        let what = format!(
+            "an altitude of {} m, where the atmosphere is not modelled",
+            flight.altitude
+        );
         return found.error(&subject.at("flight.altitude"), what, cure);
     }
     if flight.path_angle_deg.abs() > 30.0 {
@@ -35,7 +38,11 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 fn mach(subject: &Subject, files: &Files, found: &mut Findings) {
     let flight = &subject.case.flight;
     let mach = flight.mach();
-    let key = if flight.mach.is_some() { "flight.mach" } else { "flight.speed" };
+    let key = if flight.mach.is_some() {
+        "flight.mach"
+    } else {
+        "flight.speed"
+    };
     let place = subject.at(key);
     if mach >= 1.0 {
         found.error(
@@ -52,7 +59,9 @@ fn mach(subject: &Subject, files: &Files, found: &mut Findings) {
             "results lack shocks and their motion; take lift slopes and derivatives of higher fidelity as [corrections]",
         );
     }
-    let Some(derivatives) = &files.derivatives else { return };
+    let Some(derivatives) = &files.derivatives else {
+        return;
+    };
     let run = derivatives.run.mach;
     let name = subject.case.aerodynamics.derivatives.as_ref();
     let file = name.map_or_else(|| subject.at("aerodynamics.lattice.mach"), |n| files.path(n));
@@ -75,7 +84,11 @@ fn mach(subject: &Subject, files: &Files, found: &mut Findings) {
         } else {
             "run AVL at the Mach number of the flight point (OPER > M): nothing rescales its files"
         };
-        found.warning(&file, format!("AVL ran at Mach {run}, the flight is at {mach:.4}"), cure);
+        found.warning(
+            &file,
+            format!("AVL ran at Mach {run}, the flight is at {mach:.4}"),
+            cure,
+        );
     }
 }
 
@@ -87,7 +100,11 @@ pub(super) fn lift(subject: &Subject, files: &Files, mass: f64, area: f64, found
     }
     let pressure = 0.5 * atmosphere::standard(flight.altitude).density * flight.speed().powi(2);
     let needed = mass * flight.gravity * flight.path_angle_deg.to_radians().cos() / (pressure * area);
-    let key = if flight.mach.is_some() { "flight.mach" } else { "flight.speed" };
+    let key = if flight.mach.is_some() {
+        "flight.mach"
+    } else {
+        "flight.speed"
+    };
     if needed > 1.5 {
         found.warning(
             &subject.at(key),
@@ -100,7 +117,9 @@ pub(super) fn lift(subject: &Subject, files: &Files, mass: f64, area: f64, found
             format!("level flight needs a lift coefficient of {needed:.4} only"),
             "check mass, reference area, speed and altitude, and their units",
         );
-    } else if let (Some(derivatives), Some(name)) = (&files.derivatives, &subject.case.aerodynamics.derivatives) {
+    } else if let (Some(derivatives), Some(name)) =
+        (&files.derivatives, &subject.case.aerodynamics.derivatives)
+    {
         let run = derivatives.run.c_lift;
         if (run - needed).abs() > 0.1 {
             found.warning(

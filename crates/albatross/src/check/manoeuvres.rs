@@ -26,11 +26,16 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 }
 
 fn input(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str, found: &mut Findings) {
-    let Some(controls) = super::aerodynamics::control_names(files) else { return };
+    let Some(controls) = super::aerodynamics::control_names(files) else {
+        return;
+    };
     if manoeuvre.input != "thrust" && !controls.contains(&manoeuvre.input.as_str()) {
         found.error(
             &subject.at(&format!("{key}.input")),
-            format!("`{}` moves `{}`, which is no control", manoeuvre.name, manoeuvre.input),
+            format!(
+                "`{}` moves `{}`, which is no control",
+                manoeuvre.name, manoeuvre.input
+            ),
             parts::choose_input(&manoeuvre.input, &controls),
         );
     }
@@ -42,14 +47,21 @@ fn steps(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str,
     let positive = |v: f64| v.is_finite() && v > 0.0;
     if !(positive(end) && positive(dt)) || dt > end {
         let what = format!("`{}` goes to {end} s in steps of {dt} s", manoeuvre.name);
-        return found.error(&place, what, "give an end and a shorter step, both positive, in s");
+        return found.error(
+            &place,
+            what,
+            "give an end and a shorter step, both positive, in s",
+        );
     }
     let count = end / dt;
     if (count - count.round()).abs() > 1e-6 {
         found.error(
             &place,
             format!("`{}` ends after {count:.4} steps", manoeuvre.name),
-            format!("make the end a whole number of steps, such as {} s", count.round() * dt),
+            format!(
+                "make the end a whole number of steps, such as {} s",
+                count.round() * dt
+            ),
         );
     }
     let fastest = fastest_mode(subject, files);
@@ -71,14 +83,20 @@ fn steps(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str,
         found.error(
             &place,
             format!("a step of {dt} s is too long for the fastest lag, {rate:.0} 1/s"),
-            format!("set method = \"exact_lags\", or give dt below {:.1e} s", STABLE / rate),
+            format!(
+                "set method = \"exact_lags\", or give dt below {:.1e} s",
+                STABLE / rate
+            ),
         );
     }
 }
 
 /// The highest frequency among the modes that are kept \[rad/s\].
 fn fastest_mode(subject: &Subject, files: &Files) -> Option<f64> {
-    let basis = subject.case.basis(files.deck.as_ref()?, files.results.as_ref()?).ok()?;
+    let basis = subject
+        .case
+        .basis(files.deck.as_ref()?, files.results.as_ref()?)
+        .ok()?;
     basis.omegas_rad_s().into_iter().reduce(f64::max)
 }
 
@@ -119,7 +137,10 @@ fn signal(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str
     if start >= manoeuvre.end {
         found.warning(
             &place,
-            format!("the signal of `{name}` starts at {start} s, the end is at {} s", manoeuvre.end),
+            format!(
+                "the signal of `{name}` starts at {start} s, the end is at {} s",
+                manoeuvre.end
+            ),
             "start it sooner, or end later",
         );
     }
@@ -132,11 +153,21 @@ fn signal(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str
     } else if is_control && amplitude != 0.0 && amplitude.abs() < SMALL_DEG {
         found.warning(
             &place,
-            format!("`{name}` deflects `{}` by {amplitude} deg, which looks like radians", manoeuvre.input),
-            format!("give degrees: {amplitude} rad is {:.3} deg", amplitude.to_degrees()),
+            format!(
+                "`{name}` deflects `{}` by {amplitude} deg, which looks like radians",
+                manoeuvre.input
+            ),
+            format!(
+                "give degrees: {amplitude} rad is {:.3} deg",
+                amplitude.to_degrees()
+            ),
         );
     } else if amplitude == 0.0 {
-        found.warning(&place, format!("the amplitude of `{name}` is zero"), "give an amplitude");
+        found.warning(
+            &place,
+            format!("the amplitude of `{name}` is zero"),
+            "give an amplitude",
+        );
     }
     if let SignalCase::Doublet { frequency_hz, .. } = manoeuvre.signal
         && !(frequency_hz > 0.0 && frequency_hz * manoeuvre.dt < 0.1)

@@ -97,7 +97,11 @@ pub fn check(case_file: &Path) -> Report {
     let text = match crate::inputs::read_text(case_file) {
         Ok(text) => text,
         Err(error) => {
-            found.error(&file, error.to_string(), "give the path of a case file; `albatross new DIR` writes one");
+            found.error(
+                &file,
+                error.to_string(),
+                "give the path of a case file; `albatross new DIR` writes one",
+            );
             return found.report(Vec::new());
         }
     };
@@ -134,7 +138,7 @@ pub fn check(case_file: &Path) -> Report {
 fn checks(document: &Document, case: &Case, files: &mut Files, found: &mut Findings) {
     let subject = Subject { document, case };
     units::check(&subject, files, found);
-    structure::check(&subject, files, found);
+    files.flying = structure::check(&subject, files, found);
     aerodynamics::check(&subject, files, found);
     strips::check(&subject, files, found);
     coefficients::check(&subject, files, found);
@@ -197,7 +201,11 @@ impl Findings {
         for line in message.lines() {
             let line = line.strip_prefix("error: ").unwrap_or(line);
             let (own, rest) = names::split_place(line, place);
-            let (what, cure) = rest.split_once("; ").unwrap_or((rest, ""));
+            // Cures stand after a semicolon, or begin with "check".
+            let cut = rest.find("; ").or_else(|| rest.find(": check "));
+            let (what, cure) = cut.map_or((rest, ""), |i| {
+                (rest.get(..i).unwrap_or(rest), rest.get(i + 2..).unwrap_or(""))
+            });
             self.push(severity, own, what, cure);
         }
     }

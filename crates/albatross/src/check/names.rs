@@ -5,10 +5,25 @@ pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
     let lower = name.to_lowercase();
     known
         .into_iter()
-        .map(|k| (strsim::jaro_winkler(&lower, &k.to_lowercase()), k))
+        .map(|k| {
+            let other = k.to_lowercase();
+            // One letter wrong or two exchanged, or much in common.
+            let likeness = match strsim::osa_distance(&lower, &other) {
+                0 | 1 => 1.0,
+                _ => strsim::jaro_winkler(&lower, &other),
+            };
+            (likeness, k)
+        })
         .filter(|(likeness, _)| *likeness > 0.82)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)
+}
+
+/// A number with so many digits at most, without zeros at its end.
+pub(super) fn digits(value: f64, most: usize) -> String {
+    let rounded = format!("{value:.*e}", most.saturating_sub(1)).parse::<f64>();
+    // A negative zero is zero.
+    (rounded.unwrap_or(value) + 0.0).to_string()
 }
 
 /// A cure for an unknown name: the one that is meant, and all there are.
@@ -57,12 +72,26 @@ mod tests {
         assert_eq!(nearest("elevatr", known), Some("elevator"));
         assert_eq!(nearest("Elevator", known), Some("elevator"));
         assert_eq!(nearest("canard", known), None);
+        assert_eq!(nearest("HPT", ["Wing", "HTP"]), Some("HTP"));
+    }
+
+    #[test]
+    fn val_digits() {
+        assert_eq!(digits(80_918.489_976, 7), "80918.49");
+        assert_eq!(digits(-0.0, 7), "0");
+        assert_eq!(digits(1e-9, 3), "0.000000001");
     }
 
     #[test]
     fn val_place_of_a_message() {
         let place = |text| split_place(text, "case.toml");
-        assert_eq!(place("a/f25.bdf:12: GRID 3: bad"), ("a/f25.bdf:12", "GRID 3: bad"));
-        assert_eq!(place("mode 24 is not free: look"), ("case.toml", "mode 24 is not free: look"));
+        assert_eq!(
+            place("a/f25.bdf:12: GRID 3: bad"),
+            ("a/f25.bdf:12", "GRID 3: bad")
+        );
+        assert_eq!(
+            place("mode 24 is not free: look"),
+            ("case.toml", "mode 24 is not free: look")
+        );
     }
 }

@@ -11,15 +11,29 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 
 /// Grids around one that is not there.
 fn near(files: &Files, wanted: u32) -> String {
-    let below: Vec<u32> = files.grids.range(..wanted).rev().take(2).map(|(id, _)| *id).collect();
+    let below: Vec<u32> = files
+        .grids
+        .range(..wanted)
+        .rev()
+        .take(2)
+        .map(|(id, _)| *id)
+        .collect();
     let above = files.grids.range(wanted..).take(2).map(|(id, _)| *id);
-    let all: Vec<String> = below.into_iter().rev().chain(above).map(|id| id.to_string()).collect();
+    let all: Vec<String> = below
+        .into_iter()
+        .rev()
+        .chain(above)
+        .map(|id| id.to_string())
+        .collect();
     format!("use a grid of the deck; near it are {}", all.join(", "))
 }
 
 fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
     let case = subject.case;
-    let used = case.variants.iter().position(|v| v.thrust_line == ThrustLine::Engines);
+    let used = case
+        .variants
+        .iter()
+        .position(|v| v.thrust_line == ThrustLine::Engines);
     if let Some(i) = used.filter(|_| case.engines.is_empty()) {
         found.error(
             &subject.at(&format!("variant.{i}.thrust_line")),
@@ -43,7 +57,11 @@ fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
         found.error(
             &subject.at("engine.0.share"),
             format!("the engines' shares of the thrust add up to {total}"),
-            format!("make them add up to 1: {} each for {} equal engines", 1.0 / case.engines.len() as f64, case.engines.len()),
+            format!(
+                "make them add up to 1: {} each for {} equal engines",
+                1.0 / case.engines.len() as f64,
+                case.engines.len()
+            ),
         );
     }
     let mut moment = 0.0;
@@ -55,14 +73,20 @@ fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
             Some(point) => moment += engine.share * point[1],
             None => found.error(
                 &subject.at(&format!("engine.{i}.grid")),
-                format!("engine `{}` is at grid {}, which the deck lacks", engine.name, engine.grid),
+                format!(
+                    "engine `{}` is at grid {}, which the deck lacks",
+                    engine.name, engine.grid
+                ),
                 near(files, engine.grid),
             ),
         }
         if engine.incidence_deg.abs() > 20.0 || engine.toe_deg.abs() > 20.0 {
             found.warning(
                 &subject.at(&format!("engine.{i}")),
-                format!("engine `{}` points {} deg up and {} deg to the right", engine.name, engine.incidence_deg, engine.toe_deg),
+                format!(
+                    "engine `{}` points {} deg up and {} deg to the right",
+                    engine.name, engine.incidence_deg, engine.toe_deg
+                ),
                 "give the direction of the thrust in degrees from body x",
             );
         }
@@ -80,7 +104,10 @@ fn sensors(subject: &Subject, files: &Files, found: &mut Findings) {
     let sensors = &subject.case.sensors;
     let controls = super::aerodynamics::control_names(files).unwrap_or_default();
     for (i, sensor) in sensors.iter().enumerate() {
-        if let Some(grid) = sensor.grid.filter(|g| !files.grids.is_empty() && !files.grids.contains_key(g)) {
+        if let Some(grid) = sensor
+            .grid
+            .filter(|g| !files.grids.is_empty() && !files.grids.contains_key(g))
+        {
             found.error(
                 &subject.at(&format!("sensor.{i}.grid")),
                 format!("sensor `{}` is at grid {grid}, which the deck lacks", sensor.name),
@@ -89,7 +116,11 @@ fn sensors(subject: &Subject, files: &Files, found: &mut Findings) {
         }
         let place = subject.at(&format!("sensor.{i}.name"));
         if sensors.iter().take(i).any(|s| s.name == sensor.name) {
-            found.error(&place, format!("two sensors are named `{}`", sensor.name), "rename one of them");
+            found.error(
+                &place,
+                format!("two sensors are named `{}`", sensor.name),
+                "rename one of them",
+            );
         }
         if sensor.name == "thrust" || controls.contains(&sensor.name.as_str()) {
             found.error(

@@ -13,7 +13,9 @@ const SLOPES: std::ops::RangeInclusive<f64> = 0.5..=15.0;
 const SAME_SLOPE: f64 = 0.1;
 
 pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
-    let [Some(low), Some(high)] = &files.strips else { return };
+    let [Some(low), Some(high)] = &files.strips else {
+        return;
+    };
     incidences(subject, files, low, high, found);
     axes(subject, files, low, found);
 }
@@ -21,7 +23,9 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 /// The two strip files, and whether their incidences are those of the case.
 fn incidences(subject: &Subject, files: &Files, low: &StripForces, high: &StripForces, found: &mut Findings) {
     let place = subject.at("aerodynamics.strips");
-    let Some([a, b]) = &subject.case.aerodynamics.strips else { return };
+    let Some([a, b]) = &subject.case.aerodynamics.strips else {
+        return;
+    };
     if a.file == b.file {
         found.error(
             &place,
@@ -40,7 +44,13 @@ fn incidences(subject: &Subject, files: &Files, low: &StripForces, high: &StripF
     if slope <= 0.0 {
         found.error(
             &place,
-            format!("lift falls with incidence: {:.4} at {} deg, {:.4} at {} deg", lift(low), a.alpha_deg, lift(high), b.alpha_deg),
+            format!(
+                "lift falls with incidence: {:.4} at {} deg, {:.4} at {} deg",
+                lift(low),
+                a.alpha_deg,
+                lift(high),
+                b.alpha_deg
+            ),
             "the two files are exchanged, or their incidences",
         );
         return;
@@ -66,13 +76,19 @@ fn incidences(subject: &Subject, files: &Files, low: &StripForces, high: &StripF
     }
     let odd = records.iter().find(|r| {
         let named = subject.case.aerodynamics.surfaces.iter();
-        let own = named.filter(|s| s.name.trim().eq_ignore_ascii_case(base_name(&r.surface))).count() > 0;
+        let own = named
+            .filter(|s| s.name.trim().eq_ignore_ascii_case(base_name(&r.surface)))
+            .count()
+            > 0;
         own && r.dihedral_rad.abs() < 0.8 && !SLOPES.contains(&r.cl_alpha)
     });
     if let Some(strip) = odd {
         found.warning(
             &strip_file(subject, files, 0),
-            format!("strip {} of `{}` has a lift slope of {:.3} a radian", strip.index, strip.surface, strip.cl_alpha),
+            format!(
+                "strip {} of `{}` has a lift slope of {:.3} a radian",
+                strip.index, strip.surface, strip.cl_alpha
+            ),
             "look at that strip: a control deflected in one of the runs, or surfaces that cut each other",
         );
     }
@@ -113,12 +129,16 @@ fn one_axis(
 ) {
     let grids = grid_list(entries).unwrap_or_default();
     let points: Vec<[f64; 3]> = grids.iter().filter_map(|g| files.grids.get(g).copied()).collect();
-    let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return;
+    };
     if points.len() < 2 || points.len() < grids.len() || strips.is_empty() {
         return;
     }
     let bounds = |values: &mut dyn Iterator<Item = f64>| {
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(v), b.max(v))
+        })
     };
     let axis_y = bounds(&mut points.iter().map(|p| p[1]));
     let strip_y = bounds(&mut strips.iter().map(|s| s.y_le));
@@ -151,7 +171,11 @@ fn one_axis(
         let id = |k: usize| grids.get(k).copied().unwrap_or_default();
         found.error(
             place,
-            format!("axis `{axis}` goes back from grid {} to grid {}", id(i), id(i + 1)),
+            format!(
+                "axis `{axis}` goes back from grid {} to grid {}",
+                id(i),
+                id(i + 1)
+            ),
             "list its grids in order from one end to the other, each once",
         );
         return;
@@ -159,10 +183,14 @@ fn one_axis(
     let mut outside = 0;
     let mut example = None;
     for strip in strips {
-        let (Some(x_le), Some(z_le)) = (strip.x_le, strip.z_le) else { return };
+        let (Some(x_le), Some(z_le)) = (strip.x_le, strip.z_le) else {
+            return;
+        };
         let at = along(strip.y_le, z_le);
         let k = s.windows(2).position(|w| at <= w[1]).unwrap_or(s.len() - 2);
-        let (Some(a), Some(b)) = (points.get(k), points.get(k + 1)) else { continue };
+        let (Some(a), Some(b)) = (points.get(k), points.get(k + 1)) else {
+            continue;
+        };
         let share = (at - s[k]) / (s[k + 1] - s[k]);
         let x = a[0] + share * (b[0] - a[0]);
         let fraction = (x - x_le) / strip.chord;

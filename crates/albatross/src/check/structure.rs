@@ -13,11 +13,12 @@ const RIGID_HZ: f64 = 0.05;
 /// More structural damping than any airframe has, as a ratio of critical.
 const MUCH_DAMPING: f64 = 0.2;
 
-pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
+/// Returns the mass that flies.
+pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) -> Option<MassProperties> {
     damping(subject, found);
     tolerance(subject, found);
     axes(subject, files, found);
-    let Some(deck) = &files.deck else { return };
+    let deck = files.deck.as_ref()?;
     let mass = masses(subject, files, deck, found);
     if let (Some(mass), Some(geometry)) = (&mass, &files.geometry)
         && geometry.s_ref > 0.0
@@ -30,6 +31,7 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
     if let Some(results) = &files.results {
         modes(subject, files, deck, results, found);
     }
+    mass
 }
 
 fn damping(subject: &Subject, found: &mut Findings) {
@@ -76,7 +78,12 @@ fn tolerance(subject: &Subject, found: &mut Findings) {
 fn axes(subject: &Subject, files: &Files, found: &mut Findings) {
     let printed: Option<BTreeSet<u32>> = files.results.as_ref().and_then(|r| {
         let rows = &r.eigenvectors.first()?.rows;
-        Some(rows.iter().filter(|r| r.kind == PointKind::Grid).map(|r| r.id).collect())
+        Some(
+            rows.iter()
+                .filter(|r| r.kind == PointKind::Grid)
+                .map(|r| r.id)
+                .collect(),
+        )
     });
     for (name, entries) in &subject.case.structure.lra {
         let place = subject.at(&format!("structure.lra.{name}"));
@@ -91,7 +98,11 @@ fn axes(subject: &Subject, files: &Files, found: &mut Findings) {
             let absent: Vec<u32> = grids.iter().copied().filter(|g| !known(g)).collect();
             let ids = ranges(&absent);
             if !absent.is_empty() {
-                found.error(&place, format!("axis `{name}` has grids that {what}: {ids}"), cure);
+                found.error(
+                    &place,
+                    format!("axis `{name}` has grids that {what}: {ids}"),
+                    cure,
+                );
             }
             absent.is_empty()
         };
@@ -99,7 +110,10 @@ fn axes(subject: &Subject, files: &Files, found: &mut Findings) {
             || missing(
                 &|g| files.grids.contains_key(g),
                 "the deck lacks",
-                format!("use grids of the deck; near them are {}", near(&files.grids, &grids)),
+                format!(
+                    "use grids of the deck; near them are {}",
+                    near(&files.grids, &grids)
+                ),
             );
         if in_deck && let Some(printed) = &printed {
             let cure = "print their displacements: DISPLACEMENT(PRINT) = ALL, or a SET that holds them, and run again";
@@ -160,7 +174,11 @@ fn masses(subject: &Subject, files: &Files, deck: &Deck, found: &mut Findings) -
             "no output of the grid point weight generator: the mass is that of the deck's cards alone",
             "add PARAM,GRDPNT,0 to the deck to have it compared",
         ),
-        (None, None, _) => found.error(&place, "the deck has no mass", "add CONM2 cards, densities or NSM"),
+        (None, None, _) => found.error(
+            &place,
+            "the deck has no mass",
+            "add CONM2 cards, densities or NSM",
+        ),
         (Some(weight), Some(own), None) => {
             let factor = deck.weight_to_mass();
             let [x, y, z] = weight.directional_masses();
@@ -169,8 +187,10 @@ fn masses(subject: &Subject, files: &Files, deck: &Deck, found: &mut Findings) -
                 found.error(
                     &place,
                     format!(
-                        "the deck's mass is {:.7} kg, the weight generator of {} printed {printed:.7} kg",
-                        own.mass, subject.case.structure.results
+                        "the deck's mass is {} kg, the weight generator of {} printed {} kg",
+                        names::digits(own.mass, 7),
+                        subject.case.structure.results,
+                        names::digits(printed, 7)
                     ),
                     "deck and results are of different mass states: run SOL 103 with this deck, or give the deck that \
                      made the results",
@@ -203,7 +223,11 @@ fn mass_file(files: &Files, mass: &MassProperties, found: &mut Findings) {
     }
     let cure = "make both from one mass state; the deck's is the one that flies";
     if (total / mass.mass - 1.0).abs() > 5e-3 {
-        let what = format!("its mass is {total:.7} kg, that of the deck {:.7} kg", mass.mass);
+        let what = format!(
+            "its mass is {} kg, that of the deck {} kg",
+            names::digits(total, 7),
+            names::digits(mass.mass, 7)
+        );
         found.warning(place, what, cure);
     }
     let cg: [f64; 3] =
@@ -213,7 +237,10 @@ fn mass_file(files: &Files, mass: &MassProperties, found: &mut Findings) {
         .zip(&mass.cg)
         .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
     if apart > 0.02 * geometry.c_ref {
-        let text = |c: &[f64; 3]| format!("{:.4}, {:.4}, {:.4}", c[0], c[1], c[2]);
+        let text = |c: &[f64; 3]| {
+            // To 0.1 mm.
+            c.map(|v| names::digits((v * 1e4).round() * 1e-4, 7)).join(", ")
+        };
         let what = format!(
             "its centre of gravity is at {}, that of the deck at {}",
             text(&cg),

@@ -66,14 +66,25 @@ fn lengths(subject: &Subject, files: &Files, found: &mut Findings) {
         if ratio.max(1.0 / ratio) < SAME_SIZE {
             return;
         }
-        let spans = format!("the deck spans {of_deck:.6} from left to right, the AVL geometry {of_geometry:.6}");
+        let spans =
+            format!("the deck spans {of_deck:.6} from left to right, the AVL geometry {of_geometry:.6}");
         if let Some((_, unit)) = LENGTHS.iter().find(|(factor, _)| near(*factor)) {
-            return found.error(&place, format!("{spans}: the deck looks like {unit}"), deck_cure(unit));
+            return found.error(
+                &place,
+                format!("{spans}: the deck looks like {unit}"),
+                deck_cure(unit),
+            );
         }
         if let Some((_, unit)) = LENGTHS.iter().find(|(factor, _)| near(1.0 / factor)) {
             let geometry = files.path(&subject.case.aerodynamics.geometry);
-            let cure = format!("give the geometry in m: SCALE of each surface, Sref, Cref, Bref and Xref, and run AVL again ({unit} to m)");
-            return found.error(&geometry, format!("{spans}: the geometry looks like {unit}"), cure);
+            let cure = format!(
+                "give the geometry in m: SCALE of each surface, Sref, Cref, Bref and Xref, and run AVL again ({unit} to m)"
+            );
+            return found.error(
+                &geometry,
+                format!("{spans}: the geometry looks like {unit}"),
+                cure,
+            );
         }
         found.warning(
             &place,
@@ -98,14 +109,32 @@ fn moduli(subject: &Subject, files: &Files, found: &mut Findings) {
             .origins
             .of("MAT1", material.id)
             .map_or(file, |o| format!("{}:{}", files.path(&o.file), o.line));
-        let severity = if computed { Severity::Error } else { Severity::Warning };
+        let severity = if computed {
+            Severity::Error
+        } else {
+            Severity::Warning
+        };
         let what = format!("MAT1 {}: E = {e:e}", material.id);
         if MODULI.contains(&(e * 1e6)) && e < 1e6 {
-            found.push(severity, &place, format!("{what} looks like MPa"), "give Pa: E and G times 1e6, and lengths in m");
+            found.push(
+                severity,
+                &place,
+                format!("{what} looks like MPa"),
+                "give Pa: E and G times 1e6, and lengths in m",
+            );
         } else if MODULI.contains(&(e * 6894.757)) {
-            found.push(severity, &place, format!("{what} looks like psi"), "give Pa: E and G times 6894.757, and lengths in m");
+            found.push(
+                severity,
+                &place,
+                format!("{what} looks like psi"),
+                "give Pa: E and G times 6894.757, and lengths in m",
+            );
         } else {
-            found.warning(&place, format!("{what} is no modulus of a structural material in Pa"), "check the units of the deck");
+            found.warning(
+                &place,
+                format!("{what} is no modulus of a structural material in Pa"),
+                "check the units of the deck",
+            );
         }
     }
 }
