@@ -54,7 +54,29 @@ fn main() -> ExitCode {
         }
         Err(error) => {
             output::error(&error);
+            if let Some(case) = case_of(&arguments.command) {
+                output::hint(&format!(
+                    "`albatross check {}` looks at everything at once",
+                    case.display()
+                ));
+            }
             ExitCode::FAILURE
         }
     }
+}
+
+/// The case file that a command reads.
+fn case_of(command: &Command) -> Option<&std::path::Path> {
+    let case = match command {
+        Command::Run(options) => &options.case.case,
+        Command::Modes(options) => options.case.as_ref()?,
+        Command::Strips(options)
+        | Command::Trim(options)
+        | Command::Linearize(options)
+        | Command::ModesTable(options) => &options.case,
+        Command::Bode(options) => &options.case.case,
+        Command::Simulate(options) => &options.case.case,
+        _ => return None,
+    };
+    Some(case)
 }

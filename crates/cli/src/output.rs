@@ -154,6 +154,14 @@ pub(crate) fn error(failure: &Failure) {
     }
 }
 
+/// What may help, on a terminal only.
+pub(crate) fn hint(text: &str) {
+    let style = Style::of(&std::io::stderr());
+    if style.terminal {
+        remark(&format!("{}: {text}", style.paint(36, "hint")));
+    }
+}
+
 /// Text of a file named on the command line.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     albatross::inputs::read_text(path).map_err(|error| match error {

@@ -119,7 +119,12 @@ pub(super) fn read(text: &str, file: &str, found: &mut Findings) -> (Document, O
             .or_else(|| message.strip_prefix("unknown variant `"))
             .and_then(|rest| rest.split('`').next());
         let Some(name) = unknown else {
-            let cure = cure(message);
+            let is_toml = DeTable::parse(&text).is_ok() || file.ends_with(".toml");
+            let cure = if is_toml {
+                cure(message)
+            } else {
+                "give the case file (TOML) that names deck and geometry; `albatross new DIR` writes one"
+            };
             found.error(&place, message, cure);
             break;
         };

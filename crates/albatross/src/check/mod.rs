@@ -31,6 +31,7 @@ use crate::case::{Case, SOLVE};
 use crate::inputs::Inputs;
 use document::Document;
 use files::Files;
+pub(crate) use names::nearest;
 use serde::Serialize;
 use std::path::Path;
 

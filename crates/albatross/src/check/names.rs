@@ -1,7 +1,7 @@
 //! Names that may be misspelt, and places in messages.
 
 /// The name nearest to one that is not known, if it is near enough to be meant.
-pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
     known
         .into_iter()
@@ -29,13 +29,13 @@ pub(super) fn digits(value: f64, most: usize) -> String {
 /// A cure for an unknown name: the one that is meant, and all there are.
 pub(super) fn choose<'a>(name: &str, known: &[&'a str]) -> String {
     let all = if known.is_empty() {
-        "there is none".to_owned()
+        "There is none".to_owned()
     } else {
-        format!("there is: {}", known.join(", "))
+        format!("There is: {}", known.join(", "))
     };
     match nearest(name, known.iter().copied()) {
         Some(meant) => format!("did you mean `{meant}`? {all}"),
-        None => format!("use a name that is there; {all}"),
+        None => format!("use a name that is there. {all}"),
     }
 }
 

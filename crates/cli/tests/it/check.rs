@@ -399,3 +399,41 @@ fn val_strict() {
     assert_eq!(code(&["check", &case]), Some(0));
     assert_eq!(code(&["check", &case, "--strict"]), Some(1));
 }
+
+/// Files cut anywhere are told, not stumbled over: the exit code is that of findings.
+#[test]
+fn prop_cut_files_are_told() {
+    let copy = CaseCopy::new();
+    for file in [
+        "case.toml",
+        "f25.bdf",
+        "f25.f06",
+        "f25.avl",
+        "f25.mass",
+        "avl_out/trim.st",
+        "avl_out/alpha1.fs",
+        "reference/strips_reference.csv",
+        "reference/derivatives_reference.json",
+    ] {
+        let text = copy.read(file);
+        for share in [0.0, 0.03, 0.2, 0.55, 0.93] {
+            let end = (share * text.len() as f64) as usize;
+            copy.write(file, text.get(..end).unwrap_or_default());
+            let output = albatross(&["check", &copy.arg("case.toml"), "--json"]);
+            let code = output.status.code().unwrap();
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert!(code <= 1 && errors.is_empty(), "{file} cut at {end}: {errors}");
+            let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(code == 1, report["errors"].as_u64().unwrap() > 0);
+        }
+        copy.restore(file);
+    }
+}
+
+/// A neighbour of the name that is not there is offered, by `check` and by the other commands.
+#[test]
+fn val_names_that_may_be_meant() {
+    let output = albatross(&["trim", &case(), "--variant", "corected"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("; did you mean `corrected`?"), "{message}");
+}
