@@ -1,5 +1,7 @@
 //! What can go wrong between the case file and the results.
 
+use crate::check::nearest;
+
 /// Errors of a case.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -17,7 +19,7 @@ pub enum Error {
         cure: String,
     },
     /// A name that is not there.
-    #[error("no {kind} `{name}`; there is: {known}")]
+    #[error("no {kind} `{name}`; there is: {known}{}", meant(name, known))]
     UnknownName {
         /// What sort of thing.
         kind: &'static str,
@@ -96,6 +98,15 @@ pub enum Error {
     /// From the algebra.
     #[error(transparent)]
     Numerics(#[from] albatross_numerics::Error),
+}
+
+/// The name that may be meant, as the end of a cure.
+fn meant(name: &str, known: &str) -> String {
+    let name = name.split('`').next().unwrap_or(name);
+    match nearest(name, known.split(", ")) {
+        Some(meant) => format!("; did you mean `{meant}`?"),
+        None => String::new(),
+    }
 }
 
 fn place(file: &str, line: usize) -> String {

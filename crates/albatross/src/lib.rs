@@ -35,6 +35,7 @@
 
 pub mod analysis;
 pub mod case;
+pub mod check;
 pub mod controls;
 pub mod inputs;
 pub mod lattice;

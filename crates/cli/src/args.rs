@@ -5,15 +5,25 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Flight dynamics of flexible high-aspect-ratio aircraft.
+///
+/// A case file names the inputs and the analyses: `albatross new DIR` writes one to start from.
 #[derive(Debug, Parser)]
-#[command(name = "albatross", version, about, max_term_width = 100)]
+#[command(name = "albatross", version, about, max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
+const EXIT_CODES: &str = "\
+Exit codes: 0 done; 1 an input or a computation was refused (`check`: an error was found); 2 the command line was not \
+understood. Results go to standard output, notes, progress and errors to standard error. NO_COLOR switches colours off.";
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// A commented case with a small complete aircraft, to start from.
+    New(NewOptions),
+    /// What is missing, unusual or inconsistent in a case and its files; nothing is analysed.
+    Check(CheckOptions),
     /// All stages of a case: tables, plots and time histories into a directory.
     Run(RunOptions),
     /// Structural modes: frequencies, modal masses, symmetry, where the energy is.
@@ -43,15 +53,67 @@ pub(crate) enum Command {
     /// Vortex lattice of an AVL geometry: no AVL needed.
     Vlm(Box<VlmOptions>),
     /// A neutral wing model (JSON): matrices, flutter, divergence, as JSON.
-    Wing {
-        /// Model file; `-` reads standard input.
-        file: PathBuf,
-    },
+    Wing(NeutralOptions),
     /// A neutral aircraft model (JSON): matrices, trims, eigenvalues, responses, as JSON.
-    Aircraft {
-        /// Model file; `-` reads standard input.
-        file: PathBuf,
+    Aircraft(NeutralOptions),
+    /// Completions for a shell, on standard output.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
     },
+    /// Manual pages, one for each command.
+    Man(ManOptions),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NewOptions {
+    /// Directory for the files; made if it is not there.
+    pub(crate) dir: PathBuf,
+    /// JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Nothing on standard output.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckOptions {
+    /// Case file (TOML).
+    pub(crate) case: PathBuf,
+    /// Warnings count as errors.
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Errors and warnings only.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NeutralOptions {
+    /// Model file; `-` reads standard input.
+    pub(crate) file: PathBuf,
+    /// JSON on standard output: always so, accepted as everywhere.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No notes on standard error: there are none, accepted as everywhere.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManOptions {
+    /// Directory for the pages; made if it is not there.
+    pub(crate) dir: PathBuf,
+    /// JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Nothing on standard output.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Clone, Args)]

@@ -39,7 +39,7 @@ pub(crate) fn modes(options: &ModesOptions) -> Result<(), Failure> {
         (Some(case), None, None) => modes_of_case(case)?,
         (None, Some(deck), Some(results)) => modes_of_files(deck, results, options.modes)?,
         _ => {
-            return Err(Failure::Other(
+            return Err(Failure::Usage(
                 "give a case file, or --deck together with --results".into(),
             ));
         }

@@ -1,5 +1,6 @@
 //! Printing and writing. Files appear whole or not at all.
 
+use crate::excerpt;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 
@@ -48,6 +49,12 @@ pub(crate) enum Failure {
         /// Cause.
         source: std::io::Error,
     },
+    /// Options that do not fit together.
+    #[error("{0}")]
+    Usage(String),
+    /// `check` found errors, and has printed them.
+    #[error("errors were found")]
+    Found,
     /// Anything else.
     #[error("{0}")]
     Other(String),
@@ -100,20 +107,62 @@ pub(crate) fn remark(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// An error on standard error, with its causes.
+/// What a stream may be given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Style {
+    /// Whether someone looks at it: a terminal, or `CLICOLOR_FORCE` is set.
+    pub(crate) terminal: bool,
+    /// Whether it takes colours: a terminal without `NO_COLOR`.
+    pub(crate) colour: bool,
+}
+
+impl Style {
+    pub(crate) fn of(stream: &impl IsTerminal) -> Self {
+        let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+        let terminal = stream.is_terminal() || set("CLICOLOR_FORCE");
+        Self {
+            terminal,
+            colour: terminal && !set("NO_COLOR"),
+        }
+    }
+
+    /// Text in a colour: 31 red, 33 yellow, 36 cyan.
+    pub(crate) fn paint(self, code: u8, text: &str) -> String {
+        if self.colour {
+            format!("\u{1b}[1;{code}m{text}\u{1b}[0m")
+        } else {
+            text.to_owned()
+        }
+    }
+}
+
+/// An error on standard error, with its causes; on a terminal with the lines of the files that it names.
 pub(crate) fn error(failure: &Failure) {
-    let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let label = if colour {
-        "\u{1b}[1;31merror\u{1b}[0m"
-    } else {
-        "error"
-    };
-    // Lists of a reader's remarks bring their own label.
+    let style = Style::of(&std::io::stderr());
     let text = failure.to_string();
-    remark(&format!(
-        "{label}: {}",
-        text.strip_prefix("error: ").unwrap_or(&text)
-    ));
+    for (i, line) in text.lines().enumerate() {
+        // Lists of a reader's remarks bring their own label.
+        let message = match line.strip_prefix("error: ") {
+            Some(message) => format!("{}: {message}", style.paint(31, "error")),
+            None if i == 0 => format!("{}: {line}", style.paint(31, "error")),
+            None => line.to_owned(),
+        };
+        remark(&message);
+        if style.terminal
+            && let Some(excerpt) =
+                excerpt::of_message(line.strip_prefix("error: ").unwrap_or(line), style.colour)
+        {
+            remark(&excerpt);
+        }
+    }
+}
+
+/// What may help, on a terminal only.
+pub(crate) fn hint(text: &str) {
+    let style = Style::of(&std::io::stderr());
+    if style.terminal {
+        remark(&format!("{}: {text}", style.paint(36, "hint")));
+    }
 }
 
 /// Text of a file named on the command line.
@@ -194,6 +243,20 @@ impl Gathered {
     /// Adds a file of JSON.
     pub(crate) fn add_json(&self, name: &str, value: &impl serde::Serialize) -> Result<(), Failure> {
         self.add(name, &(serde_json::to_string_pretty(value)? + "\n"))
+    }
+
+    /// Names of the files, sorted.
+    pub(crate) fn names(&self) -> Result<Vec<String>, Failure> {
+        let fail = |source| Failure::Write {
+            path: self.path().display().to_string(),
+            source,
+        };
+        let entries = std::fs::read_dir(self.path()).map_err(fail)?;
+        let mut names: Vec<String> = entries
+            .filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned()))
+            .collect();
+        names.sort();
+        Ok(names)
     }
 
     /// Moves all files into the directory, each at once.

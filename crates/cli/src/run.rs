@@ -2,48 +2,24 @@
 
 use crate::args::RunOptions;
 use crate::case::{self, Loaded};
-use crate::output::{Failure, Gathered, print, print_json, remark, write};
+use crate::output::{Failure, Gathered, print, print_json, write};
+use crate::progress::Progress;
 use crate::{figures, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};
+use albatross::flight::TimeHistory;
 use albatross::report::Table;
 use serde_json::json;
 use std::path::Path;
-use std::time::Instant;
 
-/// A progress line on standard error for each stage, with what it took.
-struct Progress {
-    quiet: bool,
-    stage: usize,
-}
-
-const STAGES: usize = 7;
-
-impl Progress {
-    fn stage<T>(&mut self, name: &str, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-        self.stage += 1;
-        let start = Instant::now();
-        let done = work()?;
-        if !self.quiet {
-            remark(&format!(
-                "[{}/{STAGES}] {name:<24} {:>8.3} s",
-                self.stage,
-                start.elapsed().as_secs_f64()
-            ));
-        }
-        Ok(done)
-    }
-}
+const STAGES: u64 = 7;
 
 pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
-    let mut progress = Progress {
-        quiet: options.case.quiet,
-        stage: 0,
-    };
-    let Loaded { inputs, model } = progress.stage("read and build", || case::load(&options.case))?;
+    let mut progress = Progress::new(STAGES, options.case.quiet);
+    let Loaded { inputs, model } = progress.stage("read and build", |_| case::load(&options.case))?;
     let gathered = Gathered::beside(&options.out)?;
     let out = gathered.path();
 
-    let modes = progress.stage("structural modes", || {
+    let modes = progress.stage("structural modes", |_| {
         let modes = analysis::structural_modes(&inputs, &model)?;
         write_table(out, "modes", &tables::modes(&modes)?)?;
         write(
@@ -52,11 +28,11 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         )?;
         Ok(modes)
     })?;
-    progress.stage("strips", || {
+    progress.stage("strips", |_| {
         write(&out.join("strips.json"), &pretty(&case::strips_json(&model))?)?;
         write_table(out, "strips", &tables::strips(&model.strips)?)
     })?;
-    let trimmed = progress.stage("trim and linearisation", || {
+    let trimmed = progress.stage("trim and linearisation", |_| {
         let trimmed = analysis::trimmed(&model)?;
         write(
             &out.join("trim.json"),
@@ -65,14 +41,14 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         write(&out.join("state_space.json"), &pretty(&trimmed.system)?)?;
         Ok(trimmed)
     })?;
-    let mode_table = progress.stage("modes in the flow", || {
+    let mode_table = progress.stage("modes in the flow", |_| {
         let table = analysis::mode_table_without_lags(&model, &trimmed)?;
         write(&out.join("modes_table.json"), &pretty(&table)?)?;
         write_table(out, "modes_elastic", &tables::aeroelastic_modes(&table)?)?;
         write_table(out, "modes_rigid_body", &tables::rigid_body_modes(&table)?)?;
         Ok(table)
     })?;
-    progress.stage("frequency response", || {
+    progress.stage("frequency response", |_| {
         let response = case::response(&inputs, &trimmed, None, None)?;
         write(&out.join("bode.json"), &pretty(&case::bode_json(&response)?)?)?;
         write_table(out, "bode", &case::bode_table(&response)?)?;
@@ -81,24 +57,46 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
             &figures::bode(&model.variant.name, &response)?,
         )
     })?;
-    progress.stage("simulations", || {
-        simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?)
+    let histories = progress.stage("simulations", |progress| {
+        simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?, progress)
     })?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
+    let files = gathered.names()?.len();
     gathered.move_to(&options.out)?;
-    summary(options, &model, &trimmed, &mode_table, modes.len())
+    let done = Done {
+        model: &model,
+        trimmed: &trimmed,
+        modes: &mode_table,
+        n_modes: modes.len(),
+        histories: &histories,
+        files,
+        seconds: progress.finish(),
+    };
+    if options.case.json {
+        done.print_json(options)
+    } else {
+        done.print_text(options)
+    }
 }
 
-fn simulations(out: &Path, inputs: &albatross::Inputs, trimmed: &Trimmed) -> Result<(), Failure> {
+fn simulations(
+    out: &Path,
+    inputs: &albatross::Inputs,
+    trimmed: &Trimmed,
+    progress: &Progress,
+) -> Result<Vec<(String, TimeHistory)>, Failure> {
+    let mut histories = Vec::new();
     for manoeuvre in &inputs.case.manoeuvres {
+        progress.now(&format!("simulation of {}", manoeuvre.name));
         let history = analysis::simulate_case(inputs, trimmed, manoeuvre)?;
         write_table(out, &manoeuvre.name, &tables::history(&manoeuvre.name, &history)?)?;
         write(
             &out.join(format!("{}.svg", manoeuvre.name)),
             &figures::history(&manoeuvre.name, &history)?,
         )?;
+        histories.push((manoeuvre.name.clone(), history));
     }
-    Ok(())
+    Ok(histories)
 }
 
 fn write_table(out: &Path, name: &str, table: &Table) -> Result<(), Failure> {
@@ -109,36 +107,62 @@ fn pretty(value: &impl serde::Serialize) -> Result<String, Failure> {
     Ok(serde_json::to_string_pretty(value)? + "\n")
 }
 
-fn summary(
-    options: &RunOptions,
-    model: &albatross::Model,
-    trimmed: &Trimmed,
-    modes: &ModeTable,
+/// What a run has come to.
+struct Done<'a> {
+    model: &'a albatross::Model,
+    trimmed: &'a Trimmed,
+    modes: &'a ModeTable,
     n_modes: usize,
-) -> Result<(), Failure> {
-    if options.case.json {
-        return print_json(&json!({
-            "variant": model.variant.name,
+    histories: &'a [(String, TimeHistory)],
+    files: usize,
+    seconds: f64,
+}
+
+impl Done<'_> {
+    fn print_json(&self, options: &RunOptions) -> Result<(), Failure> {
+        print_json(&json!({
+            "variant": self.model.variant.name,
             "out": options.out,
-            "trim": case::trim_json(model, &trimmed.trim),
-            "modes": modes,
-            "n_states": trimmed.system.states.len(),
-            "n_strips": model.strips.strips.len(),
-            "n_modes": n_modes,
-            "notes": model.notes,
-        }));
+            "trim": case::trim_json(self.model, &self.trimmed.trim),
+            "modes": self.modes,
+            "n_states": self.trimmed.system.states.len(),
+            "n_strips": self.model.strips.strips.len(),
+            "n_modes": self.n_modes,
+            "notes": self.model.notes,
+        }))
     }
-    print(&tables::trim(model, &trimmed.trim)?.to_text())?;
-    print("")?;
-    print(&tables::rigid_body_modes(modes)?.to_text())?;
-    print("")?;
-    print(&tables::aeroelastic_modes(modes)?.to_text())?;
-    print(&format!(
-        "\n{} modes, {} strips, {} states; results of variant `{}` are in {}",
-        n_modes,
-        model.strips.strips.len(),
-        trimmed.system.states.len(),
-        model.variant.name,
-        options.out.display()
-    ))
+
+    fn print_text(&self, options: &RunOptions) -> Result<(), Failure> {
+        print(&tables::trim(self.model, &self.trimmed.trim)?.to_text())?;
+        print("")?;
+        print(&tables::rigid_body_modes(self.modes)?.to_text())?;
+        print("")?;
+        print(&tables::aeroelastic_modes(self.modes)?.to_text())?;
+        if !self.histories.is_empty() {
+            print("")?;
+            print(&tables::extremes(self.histories)?.to_text())?;
+        }
+        for mode in self.modes.elastic.iter().filter(|m| m.re > 0.0) {
+            let frequency = mode.omega_rad_s / std::f64::consts::TAU;
+            print(&format!(
+                "\nwarning: elastic mode {} grows, at {frequency:.2} Hz: flutter at this flight point",
+                mode.mode
+            ))?;
+        }
+        print(&format!(
+            "\nVariant `{}` with {} modes, {} strips, {} states: {} files in {} after {:.1} s; {}",
+            self.model.variant.name,
+            self.n_modes,
+            self.model.strips.strips.len(),
+            self.trimmed.system.states.len(),
+            self.files,
+            options.out.display(),
+            self.seconds,
+            match self.model.notes.len() {
+                0 => "nothing to note".to_owned(),
+                1 => "what was assumed is in notes.txt (1 note)".to_owned(),
+                n => format!("what was assumed is in notes.txt ({n} notes)"),
+            }
+        ))
+    }
 }

@@ -248,3 +248,39 @@ pub(crate) fn history_summary(name: &str, history: &TimeHistory) -> Result<Table
     }
     Ok(table)
 }
+
+/// Least and greatest value of what moves in each simulation.
+pub(crate) fn extremes(histories: &[(String, TimeHistory)]) -> Result<Table, ReportError> {
+    let mut table = Table::new(
+        "Simulations",
+        [
+            Column::text("manoeuvre"),
+            Column::text("output"),
+            Column::text("unit"),
+            Column::new("in trim", "", Format::Significant(5)),
+            Column::new("least", "", Format::Significant(5)),
+            Column::new("greatest", "", Format::Significant(5)),
+        ],
+    );
+    for (name, history) in histories {
+        for (channel, series) in history.channels.iter().zip(&history.series) {
+            let fold = |f: fn(f64, f64) -> f64| series.iter().copied().reduce(f).unwrap_or(0.0);
+            let (least, greatest) = (fold(f64::min), fold(f64::max));
+            let moves = greatest - least;
+            if moves <= 1e-9 * greatest.abs().max(least.abs()) {
+                continue;
+            }
+            // Rounding in trim is zero beside the motion.
+            let clean = |v: f64| Cell::from(if v.abs() < 1e-9 * moves { 0.0 } else { v });
+            table.push([
+                Cell::from(name.as_str()),
+                Cell::from(channel.name.as_str()),
+                Cell::from(channel.unit.as_str()),
+                clean(series.first().copied().unwrap_or(0.0)),
+                clean(least),
+                clean(greatest),
+            ])?;
+        }
+    }
+    Ok(table)
+}

@@ -352,7 +352,7 @@ impl Case {
         Ok(case)
     }
 
-    fn check(&self, file: &str) -> Result<(), Error> {
+    pub(crate) fn check(&self, file: &str) -> Result<(), Error> {
         let refuse = |message: String, cure: &str| {
             Err(Error::Case {
                 file: file.to_owned(),

@@ -115,7 +115,15 @@ fn val_keys_of_the_commands() {
     let text = text();
     let text = &text[text.find("\n## Output of").unwrap()..];
     let case = case();
-    for command in ["modes", "strips", "trim", "linearize", "bode", "simulate"] {
+    for command in [
+        "check",
+        "modes",
+        "strips",
+        "trim",
+        "linearize",
+        "bode",
+        "simulate",
+    ] {
         let mut arguments = vec![command, case.as_str(), "--json", "--quiet"];
         if command == "bode" {
             arguments.extend(["--omega", "1.0"]);
@@ -124,7 +132,7 @@ fn val_keys_of_the_commands() {
         let documented: String = row(text, &format!("`{command}`")).replace(['{', '}', ','], "`");
         let documented: Names = documented.split('`').map(|name| name.trim().to_owned()).collect();
         let mut printed = keys(&result);
-        for list in ["modes", "strips", "states", "channels"] {
+        for list in ["findings", "modes", "strips", "states", "channels"] {
             printed.extend(
                 result
                     .get(list)

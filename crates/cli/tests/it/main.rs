@@ -3,11 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
 
 mod case_page;
+mod check;
 mod export;
 mod formats_page;
 mod identify;
 mod options;
 mod solvers;
+mod start;
 mod support;
 
 // The messages hold texts of the operating system.
