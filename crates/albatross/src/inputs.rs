@@ -85,8 +85,7 @@ impl Inputs {
             slopes_between,
         } = match case.aerodynamics.files() {
             Some(files) => {
-                let mut read =
-                    read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?;
+                let mut read = read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?;
                 if case.aerodynamics.lift_slopes == LiftSlopes::Lattice {
                     let solved = solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?;
                     same_strips(&read.strips[0], &solved.strips[0])?;
@@ -226,22 +225,25 @@ fn same_strips(file: &StripForces, lattice: &StripForces) -> Result<(), Error> {
     let (read, made) = (rows(file), rows(lattice));
     let differ = |a: f64, b: f64| (a - b).abs() > 2e-4 * b.abs().max(1.0);
     let pairs = read.iter().zip(&made);
-    let first = pairs.enumerate().find(|(_, (a, b))| a.0 != b.0 || differ(a.1, b.1) || differ(a.2, b.2));
+    let first = pairs
+        .enumerate()
+        .find(|(_, (a, b))| a.0 != b.0 || differ(a.1, b.1) || differ(a.2, b.2));
     let (found, expected) = match first {
         Some((j, (a, b))) => (
             format!("strip {} of `{}` at y = {} with chord {}", j + 1, a.0, a.1, a.2),
             format!("`{}`, y = {:.4}, chord {:.4}", b.0, b.1, b.2),
         ),
-        None if read.len() != made.len() => (
-            format!("{} strips", read.len()),
-            format!("{} strips", made.len()),
-        ),
+        None if read.len() != made.len() => {
+            (format!("{} strips", read.len()), format!("{} strips", made.len()))
+        }
         None => return Ok(()),
     };
     Err(Error::Mismatch {
         what: "strip file against the lattice of the geometry".into(),
         found,
-        expected: format!("{expected}, as in the geometry; run AVL on that geometry, or set results = \"solve\""),
+        expected: format!(
+            "{expected}, as in the geometry; run AVL on that geometry, or set results = \"solve\""
+        ),
     })
 }
 

@@ -254,8 +254,14 @@ fn assemble(
     let split = case.aerodynamics.split;
     let rigid_shapes = StripShapes::rigid_body(strips, form, mass.cg[0], mass.cg[2]);
     let q_0 = rigid_to_elastic(strips, &set.shapes, &at_zero, &reference)?;
-    let mut model =
-        AeroelasticModel::try_new(structure, strips.clone(), set.shapes.clone(), &theory, split, &JONES)?;
+    let mut model = AeroelasticModel::try_new(
+        structure,
+        strips.clone(),
+        set.shapes.clone(),
+        &theory,
+        split,
+        &JONES,
+    )?;
     let rigid_rows = match &set.influence {
         None => generalized_forces(strips, &rigid_shapes, &set.shapes, &theory, split)?,
         Some(influence) => {
