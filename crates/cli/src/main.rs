@@ -7,6 +7,7 @@ mod identification;
 mod lattice;
 mod neutral;
 mod output;
+mod report;
 mod run;
 mod solve_modes;
 mod tables;

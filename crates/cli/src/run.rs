@@ -3,9 +3,11 @@
 use crate::args::RunOptions;
 use crate::case::{self, Loaded};
 use crate::output::{Failure, Gathered, print, print_json, remark, write};
-use crate::{figures, tables};
+use crate::{figures, report, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};
+use albatross::flight::TimeHistory;
 use albatross::report::Table;
+use albatross::root_locus;
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -16,7 +18,10 @@ struct Progress {
     stage: usize,
 }
 
-const STAGES: usize = 7;
+const STAGES: usize = 9;
+
+/// Speeds of the root locus: from and to, in parts of that of the flight point, and how many.
+const LOCUS: (f64, f64, usize) = (0.6, 1.3, 15);
 
 impl Progress {
     fn stage<T>(&mut self, name: &str, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
@@ -72,33 +77,58 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         write_table(out, "modes_rigid_body", &tables::rigid_body_modes(&table)?)?;
         Ok(table)
     })?;
-    progress.stage("frequency response", || {
+    let response = progress.stage("frequency response", || {
         let response = case::response(&inputs, &trimmed, None, None)?;
         write(&out.join("bode.json"), &pretty(&case::bode_json(&response)?)?)?;
         write_table(out, "bode", &case::bode_table(&response)?)?;
-        write(
-            &out.join("bode.svg"),
-            &figures::bode(&model.variant.name, &response)?,
-        )
+        let plot = figures::bode(&model.variant.name, &response)?;
+        write(&out.join("bode.svg"), &plot.render()?.markup)?;
+        Ok(response)
     })?;
-    progress.stage("simulations", || {
+    let locus = progress.stage("root locus", || {
+        let speeds = root_locus::speeds_around(model.point.speed, LOCUS.0, LOCUS.1, LOCUS.2);
+        let locus = root_locus::root_locus(&model, &speeds)?;
+        write(&out.join("root_locus.json"), &pretty(&locus)?)?;
+        Ok(locus)
+    })?;
+    let flights = progress.stage("simulations", || {
         simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?)
+    })?;
+    progress.stage("report", || {
+        let page = report::page(&report::Results {
+            case_file: &options.case.case,
+            inputs: &inputs,
+            model: &model,
+            modes: &modes,
+            trimmed: &trimmed,
+            mode_table: &mode_table,
+            response: &response,
+            locus: &locus,
+            flights: &flights,
+        })?;
+        write(&out.join("report.html"), &page)
     })?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
     gathered.move_to(&options.out)?;
     summary(options, &model, &trimmed, &mode_table, modes.len())
 }
 
-fn simulations(out: &Path, inputs: &albatross::Inputs, trimmed: &Trimmed) -> Result<(), Failure> {
+fn simulations(
+    out: &Path,
+    inputs: &albatross::Inputs,
+    trimmed: &Trimmed,
+) -> Result<Vec<(String, TimeHistory)>, Failure> {
+    let mut flights = Vec::new();
     for manoeuvre in &inputs.case.manoeuvres {
         let history = analysis::simulate_case(inputs, trimmed, manoeuvre)?;
         write_table(out, &manoeuvre.name, &tables::history(&manoeuvre.name, &history)?)?;
         write(
             &out.join(format!("{}.svg", manoeuvre.name)),
-            &figures::history(&manoeuvre.name, &history)?,
+            &figures::history(&manoeuvre.name, &history).render()?.markup,
         )?;
+        flights.push((manoeuvre.name.clone(), history));
     }
-    Ok(())
+    Ok(flights)
 }
 
 fn write_table(out: &Path, name: &str, table: &Table) -> Result<(), Failure> {
