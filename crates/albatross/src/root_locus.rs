@@ -5,6 +5,7 @@ use crate::model::Model;
 use albatross_flight::{Attitude, FlightPoint, ModelOptions, linearize, trim};
 use albatross_numerics::eigen::eigenvalues;
 use albatross_numerics::{C64, Mat};
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// The eigenvalues of a model at one speed.
@@ -46,52 +47,57 @@ pub fn speeds_around(speed: f64, low: f64, high: f64, count: usize) -> Vec<f64> 
 /// Eigenvalues of the linearised model at each speed, trimmed anew at the altitude and path angle of its flight point.
 ///
 /// Only the speed changes: the aerodynamic data stay those of the flight point's Mach number. A speed without a trim is
-/// left out with a note.
+/// left out with a note. Speeds are taken side by side.
 ///
 /// # Errors
 /// [`Error::Numerics`] where eigenvalues cannot be computed, those of [`linearize`].
 pub fn root_locus(model: &Model, speeds: &[f64]) -> Result<RootLocus, Error> {
+    let found: Vec<Result<Result<Roots, String>, Error>> =
+        speeds.par_iter().map(|speed| roots(model, *speed)).collect();
+    let mut locus = RootLocus {
+        points: Vec::new(),
+        notes: Vec::new(),
+    };
+    for point in found {
+        match point? {
+            Ok(roots) => locus.points.push(roots),
+            Err(note) => locus.notes.push(note),
+        }
+    }
+    Ok(locus)
+}
+
+/// The eigenvalues at one speed, or why there is no trim.
+fn roots(model: &Model, speed: f64) -> Result<Result<Roots, String>, Error> {
     let options = ModelOptions {
         attitude: Attitude::Euler,
         position: false,
         ..model.options
     };
-    let mut locus = RootLocus {
-        points: Vec::new(),
-        notes: Vec::new(),
+    let point = FlightPoint {
+        speed,
+        ..model.point.clone()
     };
-    for &speed in speeds {
-        let point = FlightPoint {
-            speed,
-            ..model.point.clone()
-        };
-        let (equations, trim) = match trim(&model.aircraft, options, &point) {
-            Ok(found) => found,
-            Err(error) => {
-                locus
-                    .notes
-                    .push(format!("no root locus at {speed:.1} m/s: {error}"));
-                continue;
-            }
-        };
-        let system = linearize(&equations, &trim.state, &trim.input)?;
-        // Heading moves nothing: its eigenvalue is zero.
-        let kept: Vec<usize> = (0..system.states.len())
-            .filter(|&i| !["psi", "north", "east"].contains(&system.states[i].name.as_str()))
-            .collect();
-        let a = Mat::from_fn(kept.len(), kept.len(), |i, j| system.a[(kept[i], kept[j])]);
-        let values = eigenvalues(a.as_ref())?
-            .into_iter()
-            .filter(|value: &C64| value.im >= 0.0)
-            .map(|value| (value.re, value.im))
-            .collect();
-        locus.points.push(Roots {
-            speed,
-            alpha_rad: trim.alpha_rad,
-            values,
-        });
-    }
-    Ok(locus)
+    let (equations, trim) = match trim(&model.aircraft, options, &point) {
+        Ok(found) => found,
+        Err(error) => return Ok(Err(format!("no root locus at {speed:.1} m/s: {error}"))),
+    };
+    let system = linearize(&equations, &trim.state, &trim.input)?;
+    // Heading moves nothing: its eigenvalue is zero.
+    let kept: Vec<usize> = (0..system.states.len())
+        .filter(|&i| !["psi", "north", "east"].contains(&system.states[i].name.as_str()))
+        .collect();
+    let a = Mat::from_fn(kept.len(), kept.len(), |i, j| system.a[(kept[i], kept[j])]);
+    let values = eigenvalues(a.as_ref())?
+        .into_iter()
+        .filter(|value: &C64| value.im >= 0.0)
+        .map(|value| (value.re, value.im))
+        .collect();
+    Ok(Ok(Roots {
+        speed,
+        alpha_rad: trim.alpha_rad,
+        values,
+    }))
 }
 
 #[cfg(test)]

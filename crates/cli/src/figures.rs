@@ -46,14 +46,17 @@ pub(crate) fn history(name: &str, history: &TimeHistory) -> LinePlot {
     plot
 }
 
-/// Unit of a response, output over input.
+/// What 0 dB of a response stands for, output over input; nothing where they share their unit.
 fn ratio(output: &str, input: &str) -> String {
-    let output = if output == "-" { "1" } else { output };
     if output == input {
-        "-".into()
-    } else {
-        format!("({})/{input}", output.replace("s2", "s^{2}"))
+        return String::new();
     }
+    let output = match output {
+        "-" => "1".to_owned(),
+        unit if unit.contains('/') => format!("({})", unit.replace("s2", "s^{2}")),
+        unit => unit.to_owned(),
+    };
+    format!("{output}/{input}")
 }
 
 /// Magnitude and phase of every output, one curve named after the variant.

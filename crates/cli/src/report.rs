@@ -183,16 +183,15 @@ fn simulations(results: &Results<'_>) -> Result<Section, ReportError> {
         section.paragraph("The case has no manoeuvre.");
     }
     for (name, history) in results.flights {
+        let summary = tables::history_summary(name, history)?
+            .with_caption(format!("All samples are in {name}.csv beside this report."));
         section
             .heading(name)
             .figure(
-                &figures::history(name, history),
+                &figures::history(name, history).without_heading(),
                 "Non-linear simulation from trim; what does not move is not drawn.",
             )?
-            .folded_table(
-                &tables::history_summary(name, history)?
-                    .with_caption(format!("All samples are in {name}.csv beside this report.")),
-            );
+            .folded_table(&summary);
     }
     Ok(section)
 }

@@ -21,7 +21,7 @@ struct Progress {
 const STAGES: usize = 9;
 
 /// Speeds of the root locus: from and to, in parts of that of the flight point, and how many.
-const LOCUS: (f64, f64, usize) = (0.6, 1.3, 15);
+const LOCUS: (f64, f64, usize) = (0.6, 1.3, 13);
 
 impl Progress {
     fn stage<T>(&mut self, name: &str, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {

@@ -6,7 +6,7 @@ use crate::plot::curve::{Point, extremes};
 use crate::plot::palette::{Dash, Marker, Style};
 use crate::plot::panel::{Guide, Panel, Series};
 use crate::plot::sheet::{LegendPlace, Sheet, Stack};
-use crate::plot::theme::{FRAME, GRID, GUIDE, INK, ZERO};
+use crate::plot::theme::{FRAME, GRID, GUIDE, INK, MINOR_GRID, ZERO};
 use crate::plot::ticks;
 use serde_json::{Map, Value, json};
 
@@ -16,8 +16,8 @@ const AXIS_ROOM: f64 = 52.0;
 const LEGEND_ROW: f64 = 22.0;
 const TITLE_ROOM: f64 = 24.0;
 
-/// Columns of abscissae in which a long curve keeps its extremes: enough to zoom in by a factor of two or three.
-const COLUMNS: f64 = 1500.0;
+/// Columns of abscissae in which a long curve keeps its extremes: two pixels wide or less where it is drawn widest.
+const COLUMNS: f64 = 1000.0;
 
 /// Part of a curve's range that its values are rounded to: a tenth of what the finest screen shows.
 const RESOLUTION: f64 = 1e-5;
@@ -47,7 +47,7 @@ fn figure(stack: &Stack, panel_height: f64, legend: bool) -> Value {
     let title_room = if stack.title.is_empty() { 0.0 } else { TITLE_ROOM };
     let below = AXIS_ROOM
         + if legend {
-            LEGEND_ROW * (1.0 + (names.len() / 2) as f64)
+            LEGEND_ROW * names.len().div_ceil(3) as f64
         } else {
             0.0
         };
@@ -107,7 +107,7 @@ fn figure(stack: &Stack, panel_height: f64, legend: bool) -> Value {
         }
         lines.extend(panel.guides.iter().map(|guide| line_of_guide(guide, &y)));
         for ratio in &panel.damping_rays {
-            rays(panel, *ratio, &y, &mut lines, &mut annotations);
+            rays(panel, *ratio, stack.x.limits, &y, &mut lines, &mut annotations);
         }
         high = low - LABEL_ROOM / plot_height;
     }
@@ -158,7 +158,7 @@ fn extent<'a>(lists: impl Iterator<Item = &'a Vec<f64>>) -> Option<(f64, f64)> {
 
 fn axis(axis: &Axis, horizontal: bool, extent: Option<(f64, f64)>) -> Map<String, Value> {
     let common = json!({
-        "showline": true, "mirror": true, "linecolor": FRAME, "linewidth": 1, "ticks": "outside", "ticklen": 4,
+        "showline": true, "mirror": "all", "linecolor": FRAME, "linewidth": 1, "ticks": "outside", "ticklen": 4,
         "tickcolor": FRAME, "gridcolor": GRID, "zerolinecolor": ZERO, "zerolinewidth": 1,
         "exponentformat": "power", "hoverformat": ".5~g", "automargin": false,
     });
@@ -170,14 +170,22 @@ fn axis(axis: &Axis, horizontal: bool, extent: Option<(f64, f64)>) -> Map<String
     match axis.scale {
         Scale::Log => {
             out.insert("type".into(), json!("log"));
-            out.insert("dtick".into(), json!(1));
+            // Left to itself plotly.js writes 1 and 10 between 10⁻¹ and 10².
+            if low > 0.0 && high.is_finite() {
+                let decades: Vec<i32> = (low.log10().floor() as i32..=high.log10().ceil() as i32).collect();
+                let labels: Vec<String> = decades.iter().map(|e| marked(&ticks::power_label(*e))).collect();
+                let places: Vec<f64> = decades.iter().map(|e| 10f64.powi(*e)).collect();
+                out.insert("tickmode".into(), json!("array"));
+                out.insert("tickvals".into(), json!(places));
+                out.insert("ticktext".into(), json!(labels));
+            }
             out.insert(
                 "minor".into(),
-                json!({ "showgrid": true, "gridcolor": "#eeeeee" }),
+                json!({ "showgrid": true, "gridcolor": MINOR_GRID, "dtick": "D1" }),
             );
         }
         Scale::Degrees => {
-            let step = ticks::degrees(low.min(high - 90.0), high.max(low + 90.0), 6).step;
+            let step = ticks::degrees(low.min(high - 90.0), high.max(low + 90.0), 5).step;
             if let Some(step) = step {
                 out.insert("dtick".into(), json!(step.value()));
                 out.insert("tick0".into(), json!(0));
@@ -251,7 +259,7 @@ fn line(style: &Style, dash: Dash) -> Value {
     } else {
         lengths.join(",")
     };
-    json!({ "color": style.colour.hex(), "width": style.drawn_width(), "dash": dash })
+    json!({ "color": style.colour.hex(), "width": style.drawn_width(), "dash": dash, "simplify": false })
 }
 
 fn marker(marker: Marker, style: &Style) -> Value {
@@ -264,8 +272,12 @@ fn marker(marker: Marker, style: &Style) -> Value {
         Marker::Cross => "x-thin-open",
         Marker::Plus => "cross-thin-open",
     };
-    let size = if marker == Marker::Disc { 5 } else { 9 };
-    json!({ "symbol": symbol, "size": size, "color": style.colour.hex(), "line": { "width": style.drawn_width() } })
+    let (size, outline) = if marker == Marker::Disc {
+        (5, 0.0)
+    } else {
+        (9, style.drawn_width())
+    };
+    json!({ "symbol": symbol, "size": size, "color": style.colour.hex(), "line": { "width": outline } })
 }
 
 /// The coordinates to be sent: long curves keep the extremes of narrow columns, and digits that cannot be seen are cut off.
@@ -279,7 +291,7 @@ fn points(series: &Series) -> (Vec<f64>, Vec<f64>) {
     // A gap would be lost among extremes.
     let whole = series.labels.is_empty() && all.iter().all(|(x, y)| x.is_finite() && y.is_finite());
     let kept = match ends {
-        Some((low, high)) if whole && high > low && all.len() > 3 * COLUMNS as usize => {
+        Some((low, high)) if whole && high > low && all.len() > 2 * COLUMNS as usize => {
             extremes(&all, |x| ((x - low) / (high - low) * COLUMNS).floor())
         }
         _ => all,
@@ -344,8 +356,19 @@ fn band(series: &Series, y_axis: &str) -> Option<Value> {
 fn line_of_guide(guide: &Guide, y_axis: &str) -> Value {
     let mut shape = json!({
         "type": "line", "line": { "color": GUIDE, "width": 1, "dash": "4px,3px" },
-        "label": { "text": marked(&guide.label), "textposition": "end", "font": { "size": 11, "color": GUIDE } },
     });
+    if !guide.label.is_empty() {
+        // Beside the upper end of an upright line, above the right end of a level one.
+        let (x_anchor, y_anchor) = if guide.on_x {
+            ("left", "top")
+        } else {
+            ("right", "bottom")
+        };
+        shape["label"] = json!({
+            "text": marked(&guide.label), "textposition": "end", "textangle": 0, "xanchor": x_anchor,
+            "yanchor": y_anchor, "font": { "size": 11, "color": GUIDE },
+        });
+    }
     let (x, y, x_ref, y_ref) = if guide.on_x {
         (
             json!([guide.value, guide.value]),
@@ -374,24 +397,35 @@ fn line_of_guide(guide: &Guide, y_axis: &str) -> Value {
     shape
 }
 
-/// Lines of constant damping from the origin, as far as the points go.
-fn rays(panel: &Panel, ratio: f64, y_axis: &str, lines: &mut Vec<Value>, annotations: &mut Vec<Value>) {
-    let top = panel
-        .y
-        .limits
-        .or_else(|| extent(panel.series.iter().map(|s| &s.y)))
-        .map_or(0.0, |(_, high)| high);
-    if top <= 0.0 || !(0.0..1.0).contains(&ratio.abs()) {
+/// Lines of constant damping from the origin, as far as the points or the limits go.
+fn rays(
+    panel: &Panel,
+    ratio: f64,
+    x_limits: Option<(f64, f64)>,
+    y_axis: &str,
+    lines: &mut Vec<Value>,
+    annotations: &mut Vec<Value>,
+) {
+    let points = || extent(panel.series.iter().map(|s| &s.y));
+    let top = panel.y.limits.or_else(points).map_or(0.0, |(_, high)| high);
+    if top <= 0.0 || !(0.0..1.0).contains(&ratio) {
         return;
     }
-    let left = -top * ratio / (1.0 - ratio * ratio).sqrt();
+    let slope = ratio / (1.0 - ratio * ratio).sqrt();
+    let left = x_limits.map_or(f64::NEG_INFINITY, |(low, _)| low);
+    let (x, y) = if -top * slope >= left {
+        (-top * slope, top)
+    } else {
+        (left, -left / slope)
+    };
     lines.push(json!({
-        "type": "line", "xref": "x", "yref": y_axis, "x0": 0, "y0": 0, "x1": left, "y1": top, "layer": "below",
+        "type": "line", "xref": "x", "yref": y_axis, "x0": 0, "y0": 0, "x1": x, "y1": y, "layer": "below",
         "line": { "color": GUIDE, "width": 0.8, "dash": "3px,3px" },
     }));
     annotations.push(json!({
-        "text": format!("ζ = {ratio}"), "showarrow": false, "xref": "x", "yref": y_axis, "x": left, "y": top,
-        "yanchor": "bottom", "font": { "size": 11, "color": GUIDE },
+        "text": format!("ζ = {ratio}"), "showarrow": false, "xref": "x", "yref": y_axis, "x": x, "y": y,
+        "xanchor": "left", "yanchor": "top", "xshift": 4, "bgcolor": "rgba(255,255,255,0.7)",
+        "font": { "size": 11, "color": GUIDE },
     }));
 }
 
@@ -439,11 +473,8 @@ mod tests {
         let plot = BodePlot::new("B", Axis::log("ω", "rad/s")).with(channel);
         let figures = plots(&plot.sheet().unwrap());
         let layout = &figures[0]["layout"];
-        assert_eq!(
-            (&layout["xaxis"]["type"], &layout["xaxis"]["dtick"]),
-            (&json!("log"), &json!(1))
-        );
-        assert_eq!(layout["xaxis"]["exponentformat"], "power");
+        assert_eq!(layout["xaxis"]["type"], "log");
+        assert_eq!(layout["xaxis"]["ticktext"][2], "10<sup>0</sup>");
         assert_eq!(layout["xaxis"]["range"], json!([-2.0, 2.0]));
         assert_eq!(layout["yaxis2"]["dtick"].as_f64().unwrap() % 45.0, 0.0);
         assert_eq!(layout["showlegend"], true);

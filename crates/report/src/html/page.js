@@ -82,7 +82,9 @@
       showbackground: false, gridcolor: "#e4e4e4", zerolinecolor: "#e4e4e4", showspikes: false, nticks: 6 });
     const axes = { xaxis: axis("x aft (m)", 0), yaxis: axis("y right (m)", 1), zaxis: axis("z up (m)", 2) };
     const length = (c) => span[c][1] - span[c][0] + 2 * room;
-    const ratio = { x: length(0) / size, y: length(1) / size, z: length(2) / size };
+    // Drawn larger where the scene is wide: the frame is turned to it, not its corner.
+    const scale = Math.min(1.4, Math.max(1, scene.clientWidth / scene.clientHeight)) / size;
+    const ratio = { x: scale * length(0), y: scale * length(1), z: scale * length(2) };
     const layout = { margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: false, paper_bgcolor: "#fff",
       font: { family: "sans-serif", size: 11 }, uirevision: "kept",
       scene: { ...axes, aspectmode: "manual", aspectratio: ratio,
@@ -129,9 +131,9 @@
       if (!on) show(1);
     }
     button.addEventListener("click", () => play(!playing));
-    const still_update = () => { if (!playing) show(1); };
-    choice.addEventListener("change", still_update);
-    amplitude.addEventListener("input", still_update);
+    const refresh = () => { if (!playing) show(1); };
+    choice.addEventListener("change", refresh);
+    amplitude.addEventListener("input", refresh);
     new IntersectionObserver((seen) => { visible = seen.some((s) => s.isIntersecting); }).observe(scene);
     return window.Plotly.newPlot(scene, traces, layout, { ...config, modeBarButtonsToRemove: ["hoverClosest3d"] })
       .then(() => play(!still));

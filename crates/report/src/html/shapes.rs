@@ -93,16 +93,9 @@ impl Shapes {
     pub(super) fn still(&self) -> String {
         let (low, high) = bounds(&self.points);
         let size = low.iter().zip(&high).map(|(a, b)| b - a).fold(0.0, f64::max);
-        let corners: Vec<(f64, f64)> = (0..8)
-            .map(|k| {
-                view(std::array::from_fn(|axis| {
-                    let end = if k >> axis & 1 == 0 { &low } else { &high };
-                    end.get(axis).copied().unwrap_or(0.0)
-                }))
-            })
-            .collect();
+        let seen: Vec<(f64, f64)> = self.points.iter().map(|p| view(*p)).collect();
         let span = |f: fn(&(f64, f64)) -> f64| {
-            let values = corners.iter().map(f);
+            let values = seen.iter().map(f);
             (
                 values.clone().fold(f64::INFINITY, f64::min),
                 values.fold(f64::NEG_INFINITY, f64::max),
@@ -110,8 +103,12 @@ impl Shapes {
         };
         let ((left, right), (bottom, top)) = (span(|c| c.0), span(|c| c.1));
         let room = STILL_SCALE * size;
-        let scale = (CELL.0 / (right - left + room)).min((CELL.1 - 24.0) / (top - bottom + 2.0 * room));
-        let scale = if scale.is_finite() { scale } else { 1.0 };
+        let scale = (CELL.0 / (right - left + room)).min((CELL.1 - 20.0) / (top - bottom + 1.4 * room));
+        let scale = if scale.is_finite() && scale > 0.0 {
+            scale
+        } else {
+            1.0
+        };
         let middle = (0.5 * (left + right), 0.5 * (bottom + top));
 
         let mut canvas = Canvas::default();
