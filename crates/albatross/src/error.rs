@@ -79,7 +79,7 @@ pub enum Error {
         /// Geometry file.
         file: String,
         /// Cause.
-        source: albatross_vlm::Error,
+        source: Box<albatross_vlm::Error>,
     },
     /// From the modal basis.
     #[error(transparent)]

@@ -65,7 +65,7 @@ pub fn of_file(file: &Path) -> impl Fn(albatross_vlm::Error) -> Error {
     let file = file.display().to_string();
     move |source| Error::Lattice {
         file: file.clone(),
-        source,
+        source: Box::new(source),
     }
 }
 

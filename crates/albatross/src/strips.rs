@@ -35,6 +35,9 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
     let aerodynamics = &inputs.case.aerodynamics;
     let ([low, high], [low_deg, high_deg]) = (&inputs.strips, inputs.strip_alphas_deg);
     let all = slopes::from_avl(low, low_deg, high, high_deg)?;
+    let source = aerodynamics
+        .files()
+        .map_or(&aerodynamics.geometry, |(_, strips)| &strips[0].file);
     let mut notes = Vec::new();
     let mut records = Vec::new();
     let mut lra = Vec::new();
@@ -53,7 +56,7 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
             return Err(Error::UnknownName {
                 kind: "surface",
                 name: surface.name.clone(),
-                known: format!("{} (in {})", known.join(", "), aerodynamics.geometry),
+                known: format!("{} (in {})", known.join(", "), source),
             });
         }
         for (place, record) in own {

@@ -15,7 +15,7 @@ pub(crate) enum Failure {
         /// File.
         file: String,
         /// Cause.
-        source: albatross::Error,
+        source: Box<albatross::Error>,
     },
     /// From a neutral model.
     #[error(transparent)]

@@ -12,7 +12,7 @@ pub(crate) fn solve_modes(options: &SolveModesOptions) -> Result<(), Failure> {
         albatross::nastran::bdf::read_strict(&options.deck).map_err(albatross::Error::from)?;
     let of_file = |source| Failure::Solver {
         file: file.clone(),
-        source: albatross::Error::Fem(source),
+        source: Box::new(albatross::Error::Fem(source)),
     };
     let choice = ModelOptions {
         bar_mass: options.mass.map(|mass| match mass {

@@ -67,13 +67,43 @@ impl Analysis {
         self.symbolic.len_val()
     }
 
-    /// Factorises a matrix that has the pattern of the analysis.
+    /// Factorises a positive semidefinite matrix that has the pattern of the analysis; zero pivots are held.
     pub(crate) fn factorise(&self, a: &Symmetric) -> Result<Factor<'_>, Error> {
-        let diagonal = a.diagonal();
-        // A freedom without stiffness or mass keeps its zero and is found below.
-        let scale: Vec<f64> = diagonal
+        let signs = vec![1; a.order()];
+        let (values, scale) = self.numeric(
+            a,
+            LdltRegularization {
+                dynamic_regularization_signs: Some(&signs),
+                dynamic_regularization_delta: HELD_PIVOT,
+                dynamic_regularization_epsilon: ZERO_PIVOT,
+            },
+        )?;
+        let singular = self.pivots(&values, |d| d >= 0.5 * HELD_PIVOT);
+        Ok(Factor {
+            analysis: self,
+            values,
+            scale,
+            singular,
+        })
+    }
+
+    /// The number of negative eigenvalues of a regular matrix, by Sylvester's law: that of its negative pivots.
+    pub(crate) fn negative_count(&self, a: &Symmetric) -> Result<usize, Error> {
+        let (values, _) = self.numeric(a, LdltRegularization::default())?;
+        Ok(self.pivots(&values, |d| d < 0.0).len())
+    }
+
+    /// Values of the factor of S A S, and the diagonal of S.
+    fn numeric(
+        &self,
+        a: &Symmetric,
+        regularization: LdltRegularization<'_, f64>,
+    ) -> Result<(Vec<f64>, Vec<f64>), Error> {
+        // A freedom without stiffness or mass keeps its zero and is found by its pivot.
+        let scale: Vec<f64> = a
+            .diagonal()
             .iter()
-            .map(|&d| if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 })
+            .map(|&d| if d == 0.0 { 1.0 } else { 1.0 / d.abs().sqrt() })
             .collect();
         let mut scaled = Vec::with_capacity(a.stored());
         scaled.extend(a.entries().map(|(i, j, v)| v * scale[i] * scale[j]));
@@ -92,45 +122,35 @@ impl Analysis {
                 &mut values,
                 SparseColMatRef::new(structure(a), &scaled),
                 Side::Lower,
-                LdltRegularization {
-                    dynamic_regularization_signs: Some(&vec![1; a.order()]),
-                    dynamic_regularization_delta: HELD_PIVOT,
-                    dynamic_regularization_epsilon: ZERO_PIVOT,
-                },
+                regularization,
                 Par::Seq,
                 MemStack::new(&mut MemBuffer::new(scratch)),
                 Default::default(),
             )
             .map_err(|e| failed(&e))?;
-        let singular = self.held(&values);
-        Ok(Factor {
-            analysis: self,
-            values,
-            scale,
-            singular,
-        })
+        Ok((values, scale))
     }
 
-    /// Freedoms whose pivots were replaced.
-    fn held(&self, values: &[f64]) -> Vec<usize> {
+    /// Freedoms whose pivots satisfy a condition, ascending.
+    fn pivots(&self, values: &[f64], condition: impl Fn(f64) -> bool) -> Vec<usize> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
             return Vec::new();
         };
         let factor = SupernodalLdltRef::new(symbolic, values);
         let forward = self.symbolic.perm().map(|p| p.arrays().0);
-        let mut held = Vec::new();
+        let mut found = Vec::new();
         for s in 0..symbolic.n_supernodes() {
             let node = factor.supernode(s);
             let block = node.val();
             for k in 0..block.ncols() {
-                if block[(k, k)] >= 0.5 * HELD_PIVOT {
+                if condition(block[(k, k)]) {
                     let at = node.start() + k;
-                    held.push(forward.map_or(at, |f| f[at]));
+                    found.push(forward.map_or(at, |f| f[at]));
                 }
             }
         }
-        held.sort_unstable();
-        held
+        found.sort_unstable();
+        found
     }
 }
 

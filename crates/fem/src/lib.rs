@@ -17,7 +17,7 @@
 //!    components without stiffness are held as by AUTOSPC. Then `K_ff = T^T K T`, `M_ff = T^T M T`, sparse.
 //! 3. **Modes.** [`FemModel::modes`]: block Lanczos on `(K - sigma M)^-1 M` with sigma below the spectrum, by a sparse
 //!    factor in approximate minimum degree order of the grids. Rigid modes of a free structure come out at zero without
-//!    SUPORT; M may be singular.
+//!    SUPORT; M may be singular. [`FemModel::count_below`] checks that none is missed.
 //! 4. **Beside that.** [`FemModel::static_solution`], [`FemModel::guyan`], [`FemModel::craig_bampton`],
 //!    [`FemModel::effective_masses`], mass properties ([`FemModel::properties`], [`FemModel::weight`]), and a
 //!    [`listing`] in the layout of a results file.

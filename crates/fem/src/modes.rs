@@ -141,6 +141,25 @@ impl FemModel {
         Ok(model.finish(pairs, options.scale, remarks, analysis.stored()))
     }
 
+    /// The number of modes below a frequency, counted without computing them: K - omega^2 M has as many negative pivots
+    /// (Sturm's theorem). A check that a list of modes is complete; the frequency should lie between two of them.
+    ///
+    /// # Errors
+    /// [`Error::BadOption`] for a frequency that is not positive, [`Error::Factorisation`] when it is a mode's.
+    pub fn count_below(&self, frequency_hz: f64) -> Result<usize, Error> {
+        if !frequency_hz.is_finite() || frequency_hz <= 0.0 {
+            return Err(Error::BadOption {
+                option: "the frequency below which modes are counted",
+                value: frequency_hz.to_string(),
+                expected: "a positive number of Hz",
+            });
+        }
+        let (model, _) = self.without_massless_motions()?;
+        let analysis = model.pencil().analysis()?;
+        let lambda = (TAU * frequency_hz).powi(2);
+        analysis.negative_count(&model.stiffness.combined(1.0, &model.mass, -lambda))
+    }
+
     pub(crate) fn pencil(&self) -> Pencil<'_> {
         Pencil {
             stiffness: &self.stiffness,

@@ -89,3 +89,27 @@ fn massless_spin_is_held_with_a_remark() {
     assert_eq!(modes.remarks.len(), 1, "{:?}", modes.remarks);
     assert!(modes.remarks[0].contains("R1"), "{}", modes.remarks[0]);
 }
+
+/// No mode is missed: Sturm's count between neighbours.
+#[test]
+fn val_count_of_modes() {
+    for name in [
+        "f25-like/f25.bdf",
+        "nastran/free.bdf",
+        "nastran/stick.bdf",
+        "nastran/cant.bdf",
+    ] {
+        let model = FemModel::assemble(&read(name), &lumped()).expect("a model");
+        let modes = crate::support::modes(&model, 26);
+        let mut checked = 0;
+        for k in 6..25 {
+            let [below, above] = [modes.frequencies_hz[k], modes.frequencies_hz[k + 1]];
+            if above > 1.001 * below {
+                let count = model.count_below(0.5 * (below + above)).expect("a count");
+                assert_eq!(count, k + 1, "{name}");
+                checked += 1;
+            }
+        }
+        assert!(checked > 10);
+    }
+}

@@ -53,6 +53,16 @@ fn check(nx: usize, ny: usize, count: usize, tolerance: f64) {
         "{rigid:e} {:e}",
         modes.eigenvalues[7]
     );
+    // None is missed, by Sturm's count in the last gap between pairs.
+    let f = &modes.frequencies_hz;
+    let gap = (7..count - 1)
+        .rev()
+        .find(|&k| f[k + 1] > 1.001 * f[k])
+        .expect("a gap");
+    assert_eq!(
+        model.count_below(0.5 * (f[gap] + f[gap + 1])).expect("a count"),
+        gap + 1
+    );
     let euler = expected(nx, ny, count);
     for (got, euler) in modes.eigenvalues[7..].iter().zip(&euler[4..]) {
         close(*got, *euler, tolerance);
