@@ -412,7 +412,12 @@ fn rays(
         return;
     }
     let slope = ratio / (1.0 - ratio * ratio).sqrt();
-    let left = x_limits.map_or(f64::NEG_INFINITY, |(low, _)| low);
+    // The line must not widen an axis that is fitted to the points.
+    let leftmost = || extent(panel.series.iter().map(|s| &s.x)).map(|(low, _)| low);
+    let left = x_limits.map(|(low, _)| low).or_else(leftmost).unwrap_or(0.0);
+    if left >= 0.0 {
+        return;
+    }
     let (x, y) = if -top * slope >= left {
         (-top * slope, top)
     } else {
@@ -523,6 +528,7 @@ mod tests {
         let figures = plots(&plot.sheet().unwrap());
         let ray = &figures[0]["layout"]["shapes"][0];
         let (x, y) = (ray["x1"].as_f64().unwrap(), ray["y1"].as_f64().unwrap());
+        assert_eq!(x, -0.5);
         assert!((-x / x.hypot(y) - 0.1).abs() < 1e-12);
         assert_eq!(figures[0]["data"][0]["mode"], "markers+text");
     }

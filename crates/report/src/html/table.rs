@@ -3,6 +3,9 @@
 use super::escape::text;
 use crate::table::{Footnotes, Table};
 
+/// Words longer than this (hashes, paths) may be broken anywhere in print.
+const LONG_WORD: usize = 30;
+
 /// The table in a frame that scrolls sideways where the screen is narrow, with its caption and footnotes.
 pub(super) fn element(table: &Table) -> String {
     let right: Vec<bool> = (0..table.columns().len())
@@ -27,7 +30,13 @@ pub(super) fn element(table: &Table) -> String {
                     mark if mark.is_empty() => mark,
                     mark => format!("<sup>{}</sup>", text(mark.trim())),
                 };
-                format!("<td{}>{}{mark}</td>", class(j), text(&cell.shown(column.format)))
+                let shown = cell.shown(column.format);
+                let class = if shown.split_whitespace().any(|word| word.len() > LONG_WORD) {
+                    " class=\"long\""
+                } else {
+                    class(j)
+                };
+                format!("<td{class}>{}{mark}</td>", text(&shown))
             })
             .collect();
         rows += &format!("<tr>{cells}</tr>\n");
