@@ -42,6 +42,9 @@ pub mod lattice;
 pub mod model;
 pub mod modes;
 pub mod neutral;
+pub mod root_locus;
+pub mod shapes;
+pub mod sources;
 pub mod strips;
 pub mod tables;
 

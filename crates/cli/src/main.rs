@@ -12,6 +12,7 @@ mod neutral;
 mod new;
 mod output;
 mod progress;
+mod report;
 mod run;
 mod shell;
 mod solve_modes;

@@ -4,14 +4,18 @@ use crate::args::RunOptions;
 use crate::case::{self, Loaded};
 use crate::output::{Failure, Gathered, print, print_json, write};
 use crate::progress::Progress;
-use crate::{figures, tables};
+use crate::{figures, report, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};
 use albatross::flight::TimeHistory;
 use albatross::report::Table;
+use albatross::root_locus;
 use serde_json::json;
 use std::path::Path;
 
-const STAGES: u64 = 7;
+const STAGES: u64 = 9;
+
+/// Speeds of the root locus: from and to, in parts of that of the flight point, and how many.
+const LOCUS: (f64, f64, usize) = (0.6, 1.3, 13);
 
 pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
     let mut progress = Progress::new(STAGES, options.case.quiet);
@@ -48,17 +52,36 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         write_table(out, "modes_rigid_body", &tables::rigid_body_modes(&table)?)?;
         Ok(table)
     })?;
-    progress.stage("frequency response", |_| {
+    let response = progress.stage("frequency response", |_| {
         let response = case::response(&inputs, &trimmed, None, None)?;
         write(&out.join("bode.json"), &pretty(&case::bode_json(&response)?)?)?;
         write_table(out, "bode", &case::bode_table(&response)?)?;
-        write(
-            &out.join("bode.svg"),
-            &figures::bode(&model.variant.name, &response)?,
-        )
+        let plot = figures::bode(&model.variant.name, &response)?;
+        write(&out.join("bode.svg"), &plot.render()?.markup)?;
+        Ok(response)
+    })?;
+    let locus = progress.stage("root locus", |_| {
+        let speeds = root_locus::speeds_around(model.point.speed, LOCUS.0, LOCUS.1, LOCUS.2);
+        let locus = root_locus::root_locus(&model, &speeds)?;
+        write(&out.join("root_locus.json"), &pretty(&locus)?)?;
+        Ok(locus)
     })?;
     let histories = progress.stage("simulations", |progress| {
         simulations(out, &inputs, &analysis::trimmed_for_simulation(&model)?, progress)
+    })?;
+    progress.stage("report", |_| {
+        let page = report::page(&report::Results {
+            case_file: &options.case.case,
+            inputs: &inputs,
+            model: &model,
+            modes: &modes,
+            trimmed: &trimmed,
+            mode_table: &mode_table,
+            response: &response,
+            locus: &locus,
+            flights: &histories,
+        })?;
+        write(&out.join("report.html"), &page)
     })?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
     let files = gathered.names()?.len();
@@ -92,7 +115,7 @@ fn simulations(
         write_table(out, &manoeuvre.name, &tables::history(&manoeuvre.name, &history)?)?;
         write(
             &out.join(format!("{}.svg", manoeuvre.name)),
-            &figures::history(&manoeuvre.name, &history)?,
+            &figures::history(&manoeuvre.name, &history).render()?.markup,
         )?;
         histories.push((manoeuvre.name.clone(), history));
     }

@@ -73,4 +73,28 @@ pub enum ReportError {
         /// Largest size, in pixels.
         most: f64,
     },
+
+    /// A shape does not have one displacement for each point.
+    #[error("shape `{shape}`: {found} displacements for {expected} points; give one for each")]
+    ShapePoints {
+        /// Name of the shape.
+        shape: String,
+        /// Displacements of the shape.
+        found: usize,
+        /// Points.
+        expected: usize,
+    },
+
+    /// A line or face between points that are not there.
+    #[error("a {what} of `{shapes}` joins point {index}; there are {points} points, counted from 0")]
+    ShapeIndex {
+        /// Title of the shapes.
+        shapes: String,
+        /// `line` or `face`.
+        what: &'static str,
+        /// Point named.
+        index: usize,
+        /// Points.
+        points: usize,
+    },
 }

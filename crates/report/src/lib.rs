@@ -1,4 +1,4 @@
-//! Tables and plots of results.
+//! Tables, plots and pages of results.
 //!
 //! # The problem
 //!
@@ -48,6 +48,11 @@
 //! for colour-blind readers and told apart in grey print by lightness and dash, and curves are thinned to what
 //! can be seen without losing a peak.
 //!
+//! # Reports
+//!
+//! [`html`] puts tables, plots and shapes in space into one file for a browser. On a screen its plots can be zoomed and
+//! read off, drawn by plotly.js, which is part of the file; in print they are the SVG.
+//!
 //! # Limits
 //!
 //! - Data cannot make a plot fail: values that are not finite are gaps, and those that a logarithmic axis has no
@@ -56,12 +61,14 @@
 //! - A table is text in memory, meant for pages rather than for millions of rows.
 
 mod error;
+pub mod html;
 mod markdown;
 mod number;
 pub mod plot;
 mod table;
 
 pub use error::ReportError;
+pub use html::HtmlReport;
 pub use markdown::Page;
 pub use number::Format;
 pub use table::{Cell, Column, Table};

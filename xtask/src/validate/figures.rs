@@ -5,6 +5,7 @@ use super::reference::{MANOEUVRES, QUANTITIES, Quantity};
 use super::study::{AVL, CORRECTED, Study, Variant};
 use crate::error::Error;
 use albatross::lti::frequency::unwrap_deg;
+use albatross::report::html;
 use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Dash, LinePlot, Panel, Series, Style};
 use albatross::strip::slopes::base_name;
 use albatross::sysid::Band;
@@ -18,8 +19,37 @@ pub(crate) struct Figure {
     pub(crate) alternative: String,
     /// Below it, Markdown.
     pub(crate) caption: String,
+    /// What is drawn.
+    pub(crate) plot: Drawing,
+}
+
+/// The plot of a figure.
+#[derive(Debug, Clone)]
+pub(crate) enum Drawing {
+    /// Curves over one abscissa.
+    Lines(LinePlot),
+    /// Bode diagrams.
+    Bode(BodePlot),
+}
+
+impl Figure {
     /// The SVG document.
-    pub(crate) svg: String,
+    pub(crate) fn svg(&self) -> Result<String, Error> {
+        let drawn = match &self.plot {
+            Drawing::Lines(plot) => plot.render()?,
+            Drawing::Bode(plot) => plot.render()?,
+        };
+        Ok(drawn.markup)
+    }
+}
+
+impl<'a> From<&'a Drawing> for html::Figure<'a> {
+    fn from(drawing: &'a Drawing) -> Self {
+        match drawing {
+            Drawing::Lines(plot) => plot.into(),
+            Drawing::Bode(plot) => plot.into(),
+        }
+    }
 }
 
 /// Figures 4 and 7 to 13 of the paper, of the surrogate, and the elastic range of Figure 8.
@@ -34,13 +64,13 @@ pub(crate) fn all(study: &Study, identification: &Identification) -> Result<Vec<
         caption: "**Figure 8.** Frequency responses from the elevator: the linearised models, and the transfer functions \
                   identified from the reference's histories at the searched orders, over the paper's band."
             .into(),
-        svg: bode(study, identification, [limits.from_rad_s, limits.to_rad_s])?,
+        plot: bode(study, identification, [limits.from_rad_s, limits.to_rad_s])?,
     });
     figures.push(Figure {
         file: "figure08b_bode_elastic.svg".into(),
         alternative: "The same Bode diagrams from 10 to 100 rad/s".into(),
         caption: "**Figure 8, elastic range.** The same over the elastic modes.".into(),
-        svg: bode(study, identification, ELASTIC)?,
+        plot: bode(study, identification, ELASTIC)?,
     });
     for (index, number) in [(0, 9), (1, 10), (2, 11)] {
         figures.push(accelerations(study, identification, index, number)?);
@@ -92,7 +122,7 @@ fn strip_lift(study: &Study) -> Result<Figure, Error> {
                   incidence: AVL (Prandtl-Glauert at M cos Λ = 0.6925) and the data of the correction. The paper shows \
                   AVL against CFD; here the correction is the reference's own strip table, which is synthetic."
             .into(),
-        svg: plot.without_heading().render()?.markup,
+        plot: Drawing::Lines(plot.without_heading()),
     })
 }
 
@@ -130,7 +160,7 @@ fn longitudinal(study: &Study) -> Result<Figure, Error> {
         caption: "**Figure 7.** The 0.5 Hz elevator doublet. All models fly the same deviation of the elevator from their \
                   own trim."
             .into(),
-        svg: plot.without_heading().render()?.markup,
+        plot: Drawing::Lines(plot.without_heading()),
     })
 }
 
@@ -174,7 +204,7 @@ fn identified_style() -> Style {
 }
 
 /// Figure 8: frequency responses from the elevator between two frequencies.
-fn bode(study: &Study, identification: &Identification, [from, to]: [f64; 2]) -> Result<String, Error> {
+fn bode(study: &Study, identification: &Identification, [from, to]: [f64; 2]) -> Result<Drawing, Error> {
     let mut plot = BodePlot::new(
         "Frequency response to the elevator",
         Axis::log("Frequency", "rad/s").with_limits(from, to),
@@ -198,7 +228,7 @@ fn bode(study: &Study, identification: &Identification, [from, to]: [f64; 2]) ->
         plot = plot.with(channel);
     }
     plot.width = 1000.0;
-    Ok(plot.without_heading().render()?.markup)
+    Ok(Drawing::Bode(plot.without_heading()))
 }
 
 /// The identified frequency response over the paper's band.
@@ -281,7 +311,7 @@ fn accelerations(
              over the whole record, of which the figure shows {} to {} s.",
             limits.0, limits.1
         ),
-        svg: plot.without_heading().render()?.markup,
+        plot: Drawing::Lines(plot.without_heading()),
     })
 }
 
@@ -316,6 +346,6 @@ fn claim(
             fit(AVL),
             fit(CORRECTED)
         ),
-        svg: plot.without_heading().render()?.markup,
+        plot: Drawing::Lines(plot.without_heading()),
     })
 }

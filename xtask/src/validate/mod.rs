@@ -12,12 +12,14 @@
 //! | [`solved`] | the same case from deck and geometry alone |
 //! | [`tables`], [`fits`], [`account`], [`figures`] | what is shown |
 //! | [`page`] | the page and the provenance of its inputs |
+//! | [`html`] | the same for a browser, not kept |
 //! | [`check`] | comparison of two directories of results |
 
 mod account;
 mod check;
 mod figures;
 mod fits;
+mod html;
 mod identification;
 mod page;
 mod paper;
@@ -54,6 +56,9 @@ pub(crate) struct Options {
     /// Directory of the results; docs/validation if not given
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Report for a browser, which is too large to be kept; target/validate/report.html if not given
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    html: Option<PathBuf>,
 }
 
 impl Options {
@@ -63,6 +68,7 @@ impl Options {
             check: true,
             search: false,
             out: None,
+            html: None,
         }
     }
 }
@@ -96,6 +102,12 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         }
         results.write(&directory)?;
         println!("{} files written to {}", results.files.len(), directory.display());
+        let report = options
+            .html
+            .clone()
+            .unwrap_or_else(|| root.join("target/validate/report.html"));
+        workspace::write_whole(&report, &results.report)?;
+        println!("for a browser: {}", report.display());
     }
     eprintln!("validate: {:.1} s", since.elapsed().as_secs_f64());
     Ok(())
@@ -107,6 +119,8 @@ struct Results {
     files: Vec<(String, String)>,
     /// Tables of measured and of iterated numbers: stem and kind.
     kinds: Vec<(&'static str, Kind)>,
+    /// The report for a browser.
+    report: String,
     /// A remark if the kept orders belong to other histories.
     stale: Option<String>,
 }
@@ -152,10 +166,18 @@ impl Results {
             files.push((format!("{}.csv", named.stem), named.table.to_csv()));
             files.push((format!("{}.json", named.stem), pretty(&named.table.to_json())?));
         }
-        files.extend(figures.into_iter().map(|figure| (figure.file, figure.svg)));
+        for figure in &figures {
+            files.push((figure.file.clone(), figure.svg()?));
+        }
         files.extend(kept_files);
         let kinds = tables.iter().filter_map(|t| Some((t.stem, t.kind?))).collect();
-        Ok(Self { files, kinds, stale })
+        let report = html::page(&tables, &figures)?;
+        Ok(Self {
+            files,
+            kinds,
+            report,
+            stale,
+        })
     }
 
     /// Writes every file whole. The page comes last, when all that it shows is there.

@@ -8,6 +8,7 @@ mod export;
 mod formats_page;
 mod identify;
 mod options;
+mod report;
 mod solvers;
 mod start;
 mod support;
@@ -61,7 +62,7 @@ fn val_run_writes_every_result() {
     assert!(output.status.success(), "{progress}");
     assert_eq!(
         progress.lines().filter(|l| l.starts_with('[')).count(),
-        7,
+        9,
         "{progress}"
     );
     for name in [
@@ -71,6 +72,8 @@ fn val_run_writes_every_result() {
         "bode.svg",
         "doublet_3Hz.csv",
         "doublet_3Hz.svg",
+        "root_locus.json",
+        "report.html",
     ] {
         assert!(std::fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");
     }

@@ -43,6 +43,11 @@ impl Origins {
         }
     }
 
+    /// Names of the files that the deck was read from: the main file, then included ones as they were met.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(AsRef::as_ref)
+    }
+
     /// Sets the places of a card name, in ascending order of number.
     pub(crate) fn insert(&mut self, name: &'static str, places: Vec<(Id, u32, u32)>) {
         self.places.insert(name, places);

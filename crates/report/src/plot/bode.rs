@@ -301,12 +301,16 @@ impl BodePlot {
     /// [`ReportError`] if there is no channel, a curve has lists of different lengths, or limits or sizes
     /// cannot be drawn.
     pub fn render(&self) -> Result<Svg, ReportError> {
+        self.sheet()?.render()
+    }
+
+    pub(crate) fn sheet(&self) -> Result<Sheet<'_>, ReportError> {
         let stacks: Result<Vec<Stack>, ReportError> = self
             .channels
             .iter()
             .map(|channel| channel.stack(&self.frequency, self.phase))
             .collect();
-        Sheet {
+        Ok(Sheet {
             title: &self.title,
             description: &self.description,
             with_heading: self.with_heading,
@@ -316,8 +320,7 @@ impl BodePlot {
             columns: self.columns.unwrap_or(2),
             stacks: stacks?,
             notes: Vec::new(),
-        }
-        .render()
+        })
     }
 }
 

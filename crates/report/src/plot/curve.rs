@@ -106,14 +106,19 @@ pub(crate) fn outlines(lower: &[Option<Point>], upper: &[Option<Point>], window:
 
 /// First, lowest, highest and last point of each pixel column, in order, if the abscissa never turns back.
 fn thin(run: &[Point]) -> Vec<Point> {
+    extremes(run, f64::floor)
+}
+
+/// First, lowest, highest and last point of each column of abscissae, in order, if the abscissa never turns back.
+pub(crate) fn extremes(run: &[Point], column: impl Fn(f64) -> f64) -> Vec<Point> {
     if !run.is_sorted_by(|a, b| a.0 <= b.0) {
         return run.to_vec();
     }
     let mut kept = Vec::new();
-    for column in run.chunk_by(|a, b| a.0.floor() == b.0.floor()) {
-        let lowest = column.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let highest = column.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let ends = [(0, column.first()), (column.len() - 1, column.last())];
+    for part in run.chunk_by(|a, b| column(a.0) == column(b.0)) {
+        let lowest = part.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let highest = part.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let ends = [(0, part.first()), (part.len() - 1, part.last())];
         let ends = ends.into_iter().filter_map(|(i, point)| Some((i, point?)));
         let mut chosen: Vec<(usize, &Point)> = ends.chain(lowest).chain(highest).collect();
         chosen.sort_by_key(|(i, _)| *i);

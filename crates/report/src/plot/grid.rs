@@ -104,13 +104,17 @@ impl GridPlot {
     /// [`ReportError`] if there is no panel, a series has lists of different lengths, or limits or sizes cannot be
     /// drawn.
     pub fn render(&self) -> Result<Svg, ReportError> {
+        self.sheet()?.render()
+    }
+
+    pub(crate) fn sheet(&self) -> Result<Sheet<'_>, ReportError> {
         let stacks = self.diagrams.iter().map(|diagram| Stack {
             title: diagram.title.clone(),
             x: diagram.x.clone(),
             panels: diagram.panels.clone(),
             margin: Margin::Snug,
         });
-        Sheet {
+        Ok(Sheet {
             title: &self.title,
             description: &self.description,
             with_heading: self.with_heading,
@@ -120,7 +124,6 @@ impl GridPlot {
             columns: self.columns,
             stacks: stacks.collect(),
             notes: Vec::new(),
-        }
-        .render()
+        })
     }
 }

@@ -83,7 +83,11 @@ impl LinePlot {
     /// [`ReportError`] if there is no panel, a series has lists of different lengths, or limits or sizes
     /// cannot be drawn.
     pub fn render(&self) -> Result<Svg, ReportError> {
-        Sheet {
+        self.sheet()?.render()
+    }
+
+    pub(crate) fn sheet(&self) -> Result<Sheet<'_>, ReportError> {
+        Ok(Sheet {
             title: &self.title,
             description: &self.description,
             with_heading: self.with_heading,
@@ -98,7 +102,6 @@ impl LinePlot {
                 margin: Margin::Snug,
             }],
             notes: Vec::new(),
-        }
-        .render()
+        })
     }
 }

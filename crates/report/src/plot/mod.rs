@@ -13,21 +13,21 @@
 //!
 //! The SVG is written directly. A plotting library with integer pixels would make smooth curves ragged.
 
-mod axis;
+pub(crate) mod axis;
 mod bode;
-mod curve;
+pub(crate) mod curve;
 mod drawing;
 mod grid;
 mod legend;
 mod line;
-mod palette;
-mod panel;
+pub(crate) mod palette;
+pub(crate) mod panel;
 mod scatter;
-mod sheet;
-mod svg;
-mod text;
-mod theme;
-mod ticks;
+pub(crate) mod sheet;
+pub(crate) mod svg;
+pub(crate) mod text;
+pub(crate) mod theme;
+pub(crate) mod ticks;
 
 pub use axis::{Axis, Scale};
 pub use bode::{BodeChannel, BodeCurve, BodePlot, PhaseDisplay};

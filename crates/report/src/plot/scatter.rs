@@ -86,10 +86,14 @@ impl ScatterPlot {
     /// # Errors
     /// [`ReportError`] if a series has lists of different lengths, or limits or sizes cannot be drawn.
     pub fn render(&self) -> Result<Svg, ReportError> {
+        self.sheet()?.render()
+    }
+
+    pub(crate) fn sheet(&self) -> Result<Sheet<'_>, ReportError> {
         let mut panel = Panel::over(self.y.clone()).with_height(self.height);
         panel.series.clone_from(&self.series);
         panel.damping_rays.clone_from(&self.damping_rays);
-        Sheet {
+        Ok(Sheet {
             title: &self.title,
             description: &self.description,
             with_heading: self.with_heading,
@@ -104,7 +108,6 @@ impl ScatterPlot {
                 margin: Margin::Airy,
             }],
             notes: Vec::new(),
-        }
-        .render()
+        })
     }
 }

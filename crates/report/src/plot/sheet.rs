@@ -146,7 +146,7 @@ impl Sheet<'_> {
         Ok(Svg { markup, notes })
     }
 
-    fn check(&self) -> Result<(), ReportError> {
+    pub(crate) fn check(&self) -> Result<(), ReportError> {
         if self.stacks.iter().all(|stack| stack.panels.is_empty()) {
             return Err(ReportError::NoPanels {
                 plot: self.title.to_owned(),
@@ -180,7 +180,7 @@ impl Sheet<'_> {
         Ok(())
     }
 
-    fn all_notes(&self) -> Vec<String> {
+    pub(crate) fn all_notes(&self) -> Vec<String> {
         let mut notes = self.notes.clone();
         for stack in &self.stacks {
             for note in stack.panels.iter().flat_map(|panel| panel.omissions(&stack.x)) {

@@ -90,7 +90,7 @@ impl Cell {
     }
 
     /// The value as a reader sees it, without remarks.
-    fn shown(&self, format: Format) -> String {
+    pub(crate) fn shown(&self, format: Format) -> String {
         match self.value() {
             Self::Text(words) => words.clone(),
             Self::Number(number) => format.show(*number),
@@ -280,7 +280,7 @@ impl Table {
     }
 
     /// Whether a column lines up on the right: it holds numbers, or nothing but gaps.
-    fn is_right_aligned(&self, column: usize) -> bool {
+    pub(crate) fn is_right_aligned(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().filter_map(|row| row.get(column)).peekable();
         cells.peek().is_some() && {
             let mut words = false;
@@ -295,12 +295,12 @@ impl Table {
 }
 
 /// The distinct notes of a table in order of appearance, marked (a), (b), …
-struct Footnotes {
+pub(crate) struct Footnotes {
     notes: Vec<String>,
 }
 
 impl Footnotes {
-    fn of(table: &Table) -> Self {
+    pub(crate) fn of(table: &Table) -> Self {
         let mut notes: Vec<String> = Vec::new();
         for note in table.rows.iter().flatten().flat_map(Cell::notes) {
             if !notes.iter().any(|known| known == note) {
@@ -311,7 +311,7 @@ impl Footnotes {
     }
 
     /// The marks of a cell: empty, ` (a)`, or ` (a, c)`.
-    fn marks(&self, cell: &Cell) -> String {
+    pub(crate) fn marks(&self, cell: &Cell) -> String {
         let marks: Vec<String> = cell
             .notes()
             .into_iter()
@@ -325,7 +325,7 @@ impl Footnotes {
         }
     }
 
-    fn marked(&self) -> impl Iterator<Item = (String, &str)> {
+    pub(crate) fn marked(&self) -> impl Iterator<Item = (String, &str)> {
         self.notes
             .iter()
             .enumerate()
