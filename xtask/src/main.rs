@@ -1,8 +1,9 @@
-//! Development tasks of the workspace: `cargo xtask validate | tidy | ci | bench`.
+//! Development tasks of the workspace: `cargo xtask validate | examples | tidy | ci | bench`.
 //!
 //! | task | does |
 //! |---|---|
 //! | `validate` | runs the F25-like case and writes `docs/validation/`; `--check` compares with what is there |
+//! | `examples` | runs the commands of `examples/*/README.md` and writes what they print; `--check` compares |
 //! | `tidy` | checks what the compiler does not: the crate graph, purity of the physics crates, file sizes, text hygiene |
 //! | `ci` | all checks that a change must pass, in order |
 //! | `bench` | runs the benches and collects their results |
@@ -13,6 +14,7 @@
 mod bench;
 mod ci;
 mod error;
+mod examples;
 mod tidy;
 mod validate;
 mod workspace;
@@ -32,6 +34,8 @@ struct Arguments {
 enum Task {
     /// Run the F25-like case and write docs/validation/, or compare with it
     Validate(validate::Options),
+    /// Run the commands of the examples and write what they print, or compare with it
+    Examples(examples::Options),
     /// Check the invariants of the workspace that the compiler does not
     Tidy,
     /// Run every check that a change must pass
@@ -43,6 +47,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Validate(options) => validate::run(&options),
+        Task::Examples(options) => examples::run(&options),
         Task::Tidy => tidy::run(),
         Task::Ci => ci::run(),
         Task::Bench(options) => bench::run(&options),

@@ -48,6 +48,7 @@ pub mod tables;
 mod error;
 
 pub use albatross_avl as avl;
+pub use albatross_export as export;
 pub use albatross_fem as fem;
 pub use albatross_flight as flight;
 pub use albatross_lti as lti;

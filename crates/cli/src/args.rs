@@ -40,6 +40,8 @@ pub(crate) enum Command {
     Bode(BodeOptions),
     /// Non-linear simulation of a manoeuvre.
     Simulate(SimulateOptions),
+    /// Linear model, transfer function, time history or mode shapes in the format of another program.
+    Export(ExportOptions),
     /// Transfer functions from time histories, with common poles, standard deviations and fits.
     Identify(IdentifyCommand),
     /// A model against another one (poles, frequency responses, peaks) and against records (fits).
@@ -181,6 +183,30 @@ pub(crate) struct SimulateOptions {
     /// Write all samples as CSV to this file.
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportOptions {
+    /// Case file (TOML).
+    pub(crate) case: PathBuf,
+    /// Files to write; the ending chooses: .mat, .npz, .json or .csv for the linear model, .vtu for the mode shapes.
+    #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
+    pub(crate) to: Vec<PathBuf>,
+    /// The transfer function of this channel instead of the linear model: .json, .mat or .npz.
+    #[arg(long, num_args = 2, value_names = ["INPUT", "OUTPUT"], conflicts_with = "manoeuvre")]
+    pub(crate) transfer: Vec<String>,
+    /// Leave out pairs of zeros and poles of --transfer within this part of their modulus.
+    #[arg(long, value_name = "PART", default_value_t = 0.0, requires = "transfer")]
+    pub(crate) cancel: f64,
+    /// The time history of this manoeuvre instead of the linear model: .csv, .parquet, .mat, .npz or .json.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) manoeuvre: Option<String>,
+    /// Variant of the case; the first one by default.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
+    /// No notes on standard error.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Args)]

@@ -24,7 +24,7 @@ pub(crate) fn load(options: &CaseOptions) -> Result<Loaded, Failure> {
     Ok(Loaded { inputs, model })
 }
 
-fn load_with_notes(options: &CaseOptions) -> Result<Loaded, Failure> {
+pub(crate) fn load_with_notes(options: &CaseOptions) -> Result<Loaded, Failure> {
     let loaded = load(options)?;
     if !options.quiet {
         for note in &loaded.model.notes {

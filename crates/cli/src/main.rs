@@ -4,6 +4,7 @@ mod args;
 mod case;
 mod check;
 mod excerpt;
+mod export;
 mod figures;
 mod identification;
 mod lattice;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         Command::ModesTable(options) => case::modes_table(options),
         Command::Bode(options) => case::bode(options),
         Command::Simulate(options) => case::simulate(options),
+        Command::Export(options) => export::export(options),
         Command::Identify(options) => identification::identify(options),
         Command::Compare(options) => identification::compare(options),
         Command::Residuals(options) => identification::residuals(options),

@@ -24,6 +24,9 @@ pub(crate) enum Failure {
     /// From tables and plots.
     #[error(transparent)]
     Report(#[from] albatross::report::ReportError),
+    /// From the export to other formats.
+    #[error(transparent)]
+    Export(#[from] albatross::export::Error),
     /// From identification.
     #[error(transparent)]
     Sysid(#[from] albatross::sysid::Error),
@@ -178,8 +181,13 @@ pub(crate) fn make_directory(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Writes a file by way of a temporary one beside it, so that a reader sees the old or the new content.
+/// Writes a text file as [`write_bytes`] does.
 pub(crate) fn write(path: &Path, content: &str) -> Result<(), Failure> {
+    write_bytes(path, content.as_bytes())
+}
+
+/// Writes a file by way of a temporary one beside it, so that a reader sees the old or the new content.
+pub(crate) fn write_bytes(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let fail = |source: std::io::Error| Failure::Write {
         path: path.display().to_string(),
         source,
@@ -192,7 +200,7 @@ pub(crate) fn write(path: &Path, content: &str) -> Result<(), Failure> {
         .prefix(".albatross-")
         .tempfile_in(directory)
         .map_err(fail)?;
-    file.write_all(content.as_bytes()).map_err(fail)?;
+    file.write_all(content).map_err(fail)?;
     file.as_file().sync_all().map_err(fail)?;
     readable(file.as_file()).map_err(fail)?;
     file.persist(path).map_err(|e| fail(e.error))?;

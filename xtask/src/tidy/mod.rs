@@ -17,7 +17,7 @@ use crate::workspace;
 use std::path::{Path, PathBuf};
 
 /// Crates in pipeline order: directory, package, and what it is.
-pub(crate) const PIPELINE: [(&str, &str, Kind); 14] = [
+pub(crate) const PIPELINE: [(&str, &str, Kind); 15] = [
     ("crates/nastran", "albatross-nastran", Kind::Reader),
     ("crates/avl", "albatross-avl", Kind::Reader),
     ("crates/numerics", "albatross-numerics", Kind::Physics),
@@ -28,6 +28,7 @@ pub(crate) const PIPELINE: [(&str, &str, Kind); 14] = [
     ("crates/modal", "albatross-modal", Kind::Physics),
     ("crates/strip", "albatross-strip", Kind::Physics),
     ("crates/flight", "albatross-flight", Kind::Physics),
+    ("crates/export", "albatross-export", Kind::Physics),
     ("crates/report", "albatross-report", Kind::Report),
     ("crates/albatross", "albatross", Kind::Facade),
     ("crates/cli", "albatross-cli", Kind::Tool),

@@ -260,6 +260,11 @@ fn words(new: &str, old: &str, equal: impl Fn(f64, f64, usize) -> bool) -> Vec<S
     found
 }
 
+/// Differences of two texts: words must agree, numbers to one unit of the last place shown.
+pub(crate) fn differences_of_texts(new: &str, old: &str) -> Vec<String> {
+    words(new, old, in_last_place)
+}
+
 fn shortened(line: &str) -> String {
     const LONGEST: usize = 160;
     if line.chars().count() <= LONGEST {

@@ -26,6 +26,7 @@ mod solved;
 mod study;
 mod tables;
 
+pub(crate) use check::differences_of_texts;
 pub(crate) use paper::read_json;
 
 use crate::error::Error;

@@ -345,6 +345,38 @@ const EXAMPLES: &[Example] = &[
             c.write("elevator.csv", "t,deg\n0.0,0.0\n1.0,0.5\n1.0,0.7\n");
         },
     },
+    // Exports.
+    Example {
+        name: "export-ending",
+        command: &["export", "CASE/case.toml", "--to", "CASE/model.xlsx"],
+        damage: |_| (),
+    },
+    Example {
+        name: "export-transfer-csv",
+        command: &[
+            "export",
+            "CASE/case.toml",
+            "--transfer",
+            "elevator",
+            "q",
+            "--to",
+            "CASE/q.csv",
+        ],
+        damage: |_| (),
+    },
+    Example {
+        name: "export-unknown-output",
+        command: &[
+            "export",
+            "CASE/case.toml",
+            "--transfer",
+            "elevator",
+            "n_z",
+            "--to",
+            "CASE/q.json",
+        ],
+        damage: |_| (),
+    },
     // Neutral models.
     Example {
         name: "neutral-truncated",

@@ -188,6 +188,50 @@ fn val_keys_of_neutral_models() {
     }
 }
 
+/// Every name in an exported file stands in the section on exports.
+#[test]
+fn val_names_of_exports() {
+    use albatross::export::{self, OperatingPoint, Record, Transfer, Value as Exported};
+    use albatross::lti::{Signal, Zpk};
+    fn names(record: &Record) -> Names {
+        let mut all = Names::new();
+        for (name, value) in &record.fields {
+            all.insert(name.clone());
+            if let Exported::Group(group) = value {
+                all.extend(names(group));
+            }
+        }
+        all
+    }
+    let text = text();
+    let documented = quoted(section(&text, "Exports"));
+    let zpk = Zpk::try_new(Vec::new(), Vec::new(), 1.0).unwrap();
+    let system = zpk
+        .to_state_space(Signal::new("u", "1"), Signal::new("y", "1"))
+        .unwrap();
+    let about = OperatingPoint {
+        states: vec![],
+        inputs: vec![0.0],
+        outputs: vec![0.0],
+    };
+    let transfer = Transfer::new(Signal::new("u", "1"), Signal::new("y", "1"), zpk).unwrap();
+    let history = albatross::flight::TimeHistory {
+        time: vec![],
+        channels: vec![],
+        series: vec![],
+        final_state: vec![],
+        evaluations: 0,
+    };
+    let mut written = names(&export::state_space(&system, Some(&about)).unwrap());
+    written.extend(names(&transfer.record()));
+    written.extend(names(&export::history(&history)));
+    let value = serde_json::to_value(&transfer).unwrap();
+    written.extend(keys(&value));
+    written.extend(keys(&value["transfer_function"]));
+    let missing: Vec<_> = written.difference(&documented).collect();
+    assert!(missing.is_empty(), "{missing:?} are not on the page");
+}
+
 #[test]
 fn val_files_of_a_run() {
     let text = text();

@@ -4,6 +4,7 @@
 
 mod case_page;
 mod check;
+mod export;
 mod formats_page;
 mod identify;
 mod options;
