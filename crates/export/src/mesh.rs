@@ -95,8 +95,8 @@ impl Mesh {
         mesh
     }
 
-    /// Adds the strips as the aerodynamics sees them: each a parallelogram along the sweep of its quarter chord, moving
-    /// along its own normal as a rigid chord, `phi - (x - x_lra) gamma`. Corners of neighbours need not meet.
+    /// Adds the strips: each a parallelogram along the sweep of its quarter chord, moving along its own normal as the
+    /// aerodynamics has it, `phi - (x - x_lra) gamma`. Where neighbours of a surface meet, both take the mean.
     ///
     /// # Errors
     /// [`Error::Mismatch`] unless there are as many records and shapes as strips, and as many shapes as modes.
@@ -136,7 +136,40 @@ impl Mesh {
                 points: (first..first + 4).collect(),
             });
         }
+        let first = self.points.len() - 4 * strips.len();
+        for (j, (pair, two)) in records.windows(2).zip(strips.windows(2)).enumerate() {
+            if let ([a, b], [s, t]) = (pair, two)
+                && a.surface == b.surface
+            {
+                self.join(first + 4 * j, 0.5 * s.width.min(t.width));
+            }
+        }
         Ok(())
+    }
+
+    /// Joins the strip whose corners begin at `first` with the next one where their ends meet within `near`: position
+    /// and displacement of both become the mean.
+    fn join(&mut self, first: usize, near: f64) {
+        // Leading and trailing edge of both ends of a strip.
+        let ends = |first: usize| [[first, first + 1], [first + 3, first + 2]];
+        let apart = |p: usize, q: usize| {
+            let ([_, y, z], [_, v, w]) = (self.points[p], self.points[q]);
+            (y - v).hypot(z - w)
+        };
+        let pairs = ends(first)
+            .into_iter()
+            .flat_map(|a| ends(first + 4).map(|b| (a, b)));
+        let nearest = pairs.min_by(|(a, b), (c, d)| apart(a[0], b[0]).total_cmp(&apart(c[0], d[0])));
+        let Some((a, b)) = nearest.filter(|(a, b)| apart(a[0], b[0]) <= near) else {
+            return;
+        };
+        let fields = self.modes.iter_mut().map(|mode| &mut mode.displacement);
+        for field in std::iter::once(&mut self.points).chain(fields) {
+            for (p, q) in a.into_iter().zip(b) {
+                let mean = std::array::from_fn(|i| 0.5 * (field[p][i] + field[q][i]));
+                (field[p], field[q]) = (mean, mean);
+            }
+        }
     }
 }
 

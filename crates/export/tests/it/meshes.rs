@@ -4,6 +4,7 @@ use albatross_export::mesh::CellKind;
 use albatross_export::{Error, Mesh, vtu};
 use albatross_modal::{BasisGrid, BasisMass, BasisOptions, ModalBasis, ModeInput};
 use albatross_nastran::bdf;
+use albatross_nastran::deck::Deck;
 use albatross_numerics::Mat;
 use albatross_strip::slopes::StripRecord;
 use albatross_strip::{Strip, StripShapes};
@@ -116,6 +117,35 @@ fn val_strips_move_as_the_aerodynamics_sees_them() {
         let along = 0.7 - (at[0] - 1.8) * 0.2;
         assert!((d[2] - along * 0.1_f64.cos()).abs() < 1e-14 && (d[1] + along * 0.1_f64.sin()).abs() < 1e-14);
     }
+}
+
+/// Two strips of one surface with a common end: it moves by the mean of both, the other ends as before.
+#[test]
+fn val_neighbours_meet() {
+    let (records, _, _) = strips();
+    let record = |y: f64, surface: &str| StripRecord {
+        surface: surface.into(),
+        leading_edge: [1.0 + 0.5 * y, y, 0.0],
+        dihedral_rad: 0.0,
+        sweep_rad: 0.5_f64.atan(),
+        ..records[0].clone()
+    };
+    let drawn = |surfaces: [&str; 2]| {
+        let records = [record(3.0, surfaces[0]), record(5.0, surfaces[1])];
+        let strips = records.clone().map(|r| r.strip(2.0, 6.0));
+        let plunge = Mat::from_fn(2, 1, |j, _| 1.0 + j as f64);
+        let shapes = StripShapes::try_new(plunge, Mat::zeros(2, 1)).unwrap();
+        let mut mesh = Mesh::of_structure(&basis(), &Deck::default());
+        mesh.add_strips(&records, &strips, &shapes).unwrap();
+        let up: Vec<f64> = mesh.modes[0].displacement[3..].iter().map(|d| d[2]).collect();
+        (mesh, up)
+    };
+    let (mesh, up) = drawn(["Wing", "Wing"]);
+    assert_eq!(up, [1.0, 1.0, 1.5, 1.5, 1.5, 1.5, 2.0, 2.0]);
+    let (inner, outer) = (mesh.points[6], mesh.points[7]);
+    assert!((0..3).all(|i| (inner[i] - outer[i]).abs() < 1e-14) && (inner[1] - 4.0).abs() < 1e-14);
+    let (_, up) = drawn(["Wing", "Tail"]);
+    assert_eq!(up, [1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
 }
 
 #[test]
