@@ -56,6 +56,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
     });
     for page in &pages {
         let text = workspace::read(page)?;
+        // What an earlier run has left would be in the way of commands that refuse to overwrite.
+        let left = page.with_file_name("out");
+        if left.is_dir() {
+            std::fs::remove_dir_all(&left).map_err(Error::file(&left))?;
+        }
         let fresh = Page {
             folder: page.parent().unwrap_or(Path::new(".")),
             program: &program,

@@ -1,15 +1,14 @@
-//! The files of AVL against each other, the reference shape, and the controls.
+//! The files of AVL against each other.
 
 use super::files::Files;
-use super::{Findings, Subject, names};
-use crate::case::{SOLVE, ThrustLine};
+use super::{Findings, Subject, controls, names, reference};
+use crate::case::SOLVE;
 use albatross_avl::geometry::Geometry;
-use albatross_avl::results::{Coefficient, Reference, StabilityDerivatives, StripForces};
+use albatross_avl::results::StabilityDerivatives;
 use albatross_strip::slopes::base_name;
-use std::collections::BTreeMap;
 
 /// Printed digits of the text layout.
-const DIGITS: f64 = 1e-4;
+pub(super) const DIGITS: f64 = 1e-4;
 
 pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
     surfaces(subject, files, found);
@@ -21,12 +20,13 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
         }
     }
     if let (Some(geometry), Some(strips)) = (&files.geometry, &files.strips[0]) {
-        reference(subject, files, geometry, strips, found);
+        reference::check(subject, files, geometry, strips, found);
     }
-    controls(subject, files, found);
+    controls::check(subject, files, found);
 }
 
-fn derivatives_file(subject: &Subject, files: &Files) -> String {
+/// Path of the file of derivatives.
+pub(super) fn derivatives_file(subject: &Subject, files: &Files) -> String {
     let name = subject.case.aerodynamics.derivatives.as_ref();
     name.map_or_else(|| subject.at("aerodynamics.results"), |name| files.path(name))
 }
@@ -224,238 +224,6 @@ fn same_run(
                 derivatives.run.n_strips
             ),
             "write derivatives and strips in one session of AVL, with one geometry",
-        );
-    }
-}
-
-/// The wing: the surface of the case with the largest area.
-pub(super) struct Wing {
-    pub(super) name: String,
-    /// Area of both halves \[m²\].
-    pub(super) area: f64,
-    /// Span \[m\].
-    pub(super) span: f64,
-    /// Sweep of the quarter chord, mean by area \[rad\].
-    pub(super) sweep_rad: f64,
-}
-
-impl Wing {
-    pub(super) fn find(subject: &Subject, strips: &StripForces) -> Option<Self> {
-        let mut areas: BTreeMap<String, f64> = BTreeMap::new();
-        for surface in &strips.surfaces {
-            let area: f64 = surface.strips.iter().map(|s| s.area).sum();
-            *areas
-                .entry(base_name(&surface.name).trim().to_lowercase())
-                .or_default() += area;
-        }
-        let named = |name: &str| {
-            let surfaces = &subject.case.aerodynamics.surfaces;
-            surfaces.iter().any(|s| s.name.trim().eq_ignore_ascii_case(name))
-        };
-        let (name, area) = areas
-            .into_iter()
-            .filter(|(name, _)| named(name))
-            .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let of_wing = || {
-            let own = strips.surfaces.iter();
-            own.filter(|s| base_name(&s.name).trim().eq_ignore_ascii_case(&name))
-        };
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (mut tangent, mut weight) = (0.0, 0.0);
-        for surface in of_wing() {
-            for strip in &surface.strips {
-                let half = if strip.chord > 0.0 {
-                    0.5 * strip.area / strip.chord
-                } else {
-                    0.0
-                };
-                low = low.min(strip.y_le - half);
-                high = high.max(strip.y_le + half);
-            }
-            for pair in surface.strips.windows(2) {
-                let [a, b] = pair else { continue };
-                let quarter = |s: &albatross_avl::results::Strip| s.x_le.unwrap_or(0.0) + 0.25 * s.chord;
-                let (dx, dy) = (quarter(b) - quarter(a), (b.y_le.abs() - a.y_le.abs()).abs());
-                if dy > 1e-9 {
-                    tangent += dx / dy * a.area;
-                    weight += a.area;
-                }
-            }
-        }
-        let display = of_wing()
-            .next()
-            .map_or(name.clone(), |s| base_name(&s.name).trim().to_owned());
-        Some(Self {
-            name: display,
-            area,
-            span: (high - low).max(0.0),
-            sweep_rad: if weight > 0.0 {
-                (tangent / weight).atan().abs()
-            } else {
-                0.0
-            },
-        })
-    }
-}
-
-/// The reference shape against the strips of the wing.
-fn reference(
-    subject: &Subject,
-    files: &Files,
-    geometry: &Geometry,
-    strips: &StripForces,
-    found: &mut Findings,
-) {
-    let Some(wing) = Wing::find(subject, strips).filter(|w| w.area > 0.0 && w.span > 0.0) else {
-        return;
-    };
-    let own = subject.case.reference;
-    let run = files.derivatives.as_ref().map(|d| &d.run.reference);
-    let (area, chord, span, place) = match (own, run) {
-        (Some(r), _) => (r.area, r.chord, r.span, subject.at("reference")),
-        (None, Some(r)) if subject.case.aerodynamics.derivatives.is_some() => {
-            (r.s_ref, r.c_ref, r.b_ref, derivatives_file(subject, files))
-        }
-        _ => {
-            let file = files.path(&subject.case.aerodynamics.geometry);
-            (geometry.s_ref, geometry.c_ref, geometry.b_ref, file)
-        }
-    };
-    let mut compare = |what: &str,
-                       given: f64,
-                       measured: f64,
-                       unit: &str,
-                       range: std::ops::RangeInclusive<f64>| {
-        if given <= 0.0 || !given.is_finite() {
-            found.error(
-                &place,
-                format!("{what} is {given}"),
-                "give a positive number in the header of the geometry",
-            );
-            return;
-        }
-        let ratio = given / measured;
-        if range.contains(&ratio) {
-            return;
-        }
-        let near = |factor: f64| (ratio / factor - 1.0).abs() < 0.15;
-        let hint = if near(0.5) {
-            "half of it: the reference of one side?"
-        } else if near(2.0) {
-            "twice as much"
-        } else if ratio > 300.0 {
-            "in mm?"
-        } else if near(10.7639) || near(3.28084) {
-            "in feet?"
-        } else {
-            "another shape?"
-        };
-        found.warning(
-            &place,
-            format!("{what} is {given} {unit}, the strips of `{}` make {measured:.4} {unit} ({hint})", wing.name),
-            "correct Sref, Cref, Bref in the geometry and run AVL again; or give the shape that the coefficients refer \
-             to as [reference]",
-        );
-    };
-    compare("the reference area", area, wing.area, "m2", 0.7..=1.4);
-    compare("the reference span", span, wing.span, "m", 0.8..=1.25);
-    compare(
-        "the reference chord",
-        chord,
-        wing.area / wing.span,
-        "m",
-        0.7..=1.7,
-    );
-    let printed = |r: &Reference| (r.s_ref - geometry.s_ref).abs() > DIGITS * geometry.s_ref.abs();
-    if let Some(other) = strips.reference.as_ref().filter(|r| printed(r)) {
-        found.warning(
-            &strip_file(subject, files, 0),
-            format!(
-                "Sref is {} here and {} in the geometry",
-                other.s_ref, geometry.s_ref
-            ),
-            "write the strip files with this geometry",
-        );
-    }
-}
-
-/// Names of the controls.
-pub(super) fn control_names(files: &Files) -> Option<Vec<&str>> {
-    match (&files.derivatives, &files.geometry) {
-        (Some(derivatives), _) => Some(derivatives.controls.iter().map(|c| c.name.trim()).collect()),
-        (None, Some(geometry)) => Some(geometry.control_names()),
-        _ => None,
-    }
-}
-
-fn controls(subject: &Subject, files: &Files, found: &mut Findings) {
-    let Some(known) = control_names(files) else { return };
-    let trim = &subject.case.flight.trim_control;
-    let place = subject.at("flight.trim_control");
-    let is_known = known.iter().any(|k| k == trim);
-    if !is_known {
-        found.error(
-            &place,
-            format!("`{trim}` is no control of the AVL files"),
-            names::choose(trim, &known),
-        );
-    }
-    if let (Some(geometry), Some(derivatives)) = (&files.geometry, &files.derivatives) {
-        let drawn = geometry.control_names();
-        let computed: Vec<&str> = derivatives.controls.iter().map(|c| c.name.trim()).collect();
-        let lacks = |list: &[&str], others: &[&str]| -> Vec<String> {
-            let absent = others.iter().filter(|o| !list.contains(o));
-            absent.map(ToString::to_string).collect()
-        };
-        for (absent, where_not) in [
-            (
-                lacks(&drawn, &computed),
-                subject.case.aerodynamics.geometry.clone(),
-            ),
-            (lacks(&computed, &drawn), derivatives_file(subject, files)),
-        ] {
-            if !absent.is_empty() {
-                found.warning(
-                    &derivatives_file(subject, files),
-                    format!("controls that {where_not} lacks: {}", absent.join(", ")),
-                    "run AVL again with this geometry; names must agree to the letter",
-                );
-            }
-        }
-        if is_known && let Some(column) = derivatives.control(trim) {
-            let pitch = column.get(Coefficient::Pitch).unwrap_or(0.0);
-            let lateral = column.roll.abs().max(column.yaw.abs());
-            let able: Vec<&str> = derivatives
-                .controls
-                .iter()
-                .filter(|c| c.column.pitch.abs() > 1e-5)
-                .map(|c| c.name.trim())
-                .collect();
-            if pitch.abs() < 1e-5 || lateral > 10.0 * pitch.abs() {
-                found.error(
-                    &place,
-                    format!("`{trim}` hardly changes the pitching moment: {pitch:.2e} a degree"),
-                    format!("trim with a control that does: {}", able.join(", ")),
-                );
-            } else if pitch > 0.0 {
-                found.note(
-                    &place,
-                    format!("`{trim}` raises the nose when positive ({pitch:.2e} a degree)"),
-                    "usual for a canard; else check the sign of its gain in the geometry",
-                );
-            }
-        }
-    }
-    let engines_used = subject
-        .case
-        .variants
-        .iter()
-        .any(|v| v.thrust_line == ThrustLine::Engines);
-    if known.contains(&"thrust") && engines_used {
-        found.warning(
-            &place,
-            "a control is named `thrust`, as the engines' input",
-            "rename the control",
         );
     }
 }

@@ -27,7 +27,7 @@ fn signs(subject: &Subject, files: &Files, derivatives: &StabilityDerivatives, f
         );
         return;
     }
-    if lift < 1.0 || lift > 15.0 {
+    if !(1.0..=15.0).contains(&lift) {
         found.warning(
             &place,
             format!("CLa is {lift} a radian"),
@@ -110,7 +110,7 @@ fn corrections(subject: &Subject, files: &Files, found: &mut Findings) {
             "name lift_slopes or derivatives",
         );
     }
-    if let (Some(elevator), Some(known)) = (&corrections.elevator, super::aerodynamics::control_names(files))
+    if let (Some(elevator), Some(known)) = (&corrections.elevator, super::controls::names_of(files))
         && !known.contains(&elevator.as_str())
     {
         found.error(

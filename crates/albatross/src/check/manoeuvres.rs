@@ -26,7 +26,7 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 }
 
 fn input(subject: &Subject, files: &Files, manoeuvre: &ManoeuvreCase, key: &str, found: &mut Findings) {
-    let Some(controls) = super::aerodynamics::control_names(files) else {
+    let Some(controls) = super::controls::names_of(files) else {
         return;
     };
     if manoeuvre.input != "thrust" && !controls.contains(&manoeuvre.input.as_str()) {

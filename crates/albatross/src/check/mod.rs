@@ -17,12 +17,14 @@
 mod aerodynamics;
 mod build;
 mod coefficients;
+mod controls;
 mod document;
 mod files;
 mod flight;
 mod manoeuvres;
 mod names;
 mod parts;
+mod reference;
 mod strips;
 mod structure;
 mod units;

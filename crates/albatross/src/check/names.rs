@@ -27,7 +27,7 @@ pub(super) fn digits(value: f64, most: usize) -> String {
 }
 
 /// A cure for an unknown name: the one that is meant, and all there are.
-pub(super) fn choose<'a>(name: &str, known: &[&'a str]) -> String {
+pub(super) fn choose(name: &str, known: &[&str]) -> String {
     let all = if known.is_empty() {
         "There is none".to_owned()
     } else {

@@ -64,21 +64,24 @@ fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
             ),
         );
     }
-    let mut moment = 0.0;
+    let (mut moment, mut complete) = (0.0, true);
     for (i, engine) in case.engines.iter().enumerate() {
         if files.grids.is_empty() {
             continue;
         }
         match files.grids.get(&engine.grid) {
             Some(point) => moment += engine.share * point[1],
-            None => found.error(
-                &subject.at(&format!("engine.{i}.grid")),
-                format!(
-                    "engine `{}` is at grid {}, which the deck lacks",
-                    engine.name, engine.grid
-                ),
-                near(files, engine.grid),
-            ),
+            None => {
+                complete = false;
+                found.error(
+                    &subject.at(&format!("engine.{i}.grid")),
+                    format!(
+                        "engine `{}` is at grid {}, which the deck lacks",
+                        engine.name, engine.grid
+                    ),
+                    near(files, engine.grid),
+                );
+            }
         }
         if engine.incidence_deg.abs() > 20.0 || engine.toe_deg.abs() > 20.0 {
             found.warning(
@@ -91,7 +94,7 @@ fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
             );
         }
     }
-    if moment.abs() > 0.01 {
+    if complete && moment.abs() > 0.01 {
         found.warning(
             &place,
             format!("the thrust acts {moment:.3} m off the plane of symmetry, and trim has no yaw"),
@@ -102,7 +105,7 @@ fn engines(subject: &Subject, files: &Files, found: &mut Findings) {
 
 fn sensors(subject: &Subject, files: &Files, found: &mut Findings) {
     let sensors = &subject.case.sensors;
-    let controls = super::aerodynamics::control_names(files).unwrap_or_default();
+    let controls = super::controls::names_of(files).unwrap_or_default();
     for (i, sensor) in sensors.iter().enumerate() {
         if let Some(grid) = sensor
             .grid

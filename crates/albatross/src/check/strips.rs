@@ -12,6 +12,9 @@ const SLOPES: std::ops::RangeInclusive<f64> = 0.5..=15.0;
 /// How far slopes of strips and derivatives of one aircraft may differ: the runs differ in incidence.
 const SAME_SLOPE: f64 = 0.1;
 
+/// An axis with less extent across the stream than this share of that along it is no axis of a surface.
+const MOST_STREAMWISE: f64 = 0.2;
+
 pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
     let [Some(low), Some(high)] = &files.strips else {
         return;
@@ -157,7 +160,7 @@ fn one_axis(
     }
     let (dy, dz) = (last[1] - first[1], last[2] - first[2]);
     let length = dy.hypot(dz);
-    if length <= 1e-6 * (last[0] - first[0]).abs().max(1e-6) {
+    if length <= (MOST_STREAMWISE * (last[0] - first[0]).abs()).max(1e-6) {
         found.error(
             place,
             format!("axis `{axis}` runs along the stream, the strips of `{surface}` lie across it"),
