@@ -187,8 +187,8 @@ pub(crate) struct SimulateOptions {
 
 #[derive(Debug, Args)]
 pub(crate) struct ExportOptions {
-    /// Case file (TOML).
-    pub(crate) case: PathBuf,
+    #[command(flatten)]
+    pub(crate) case: CaseOptions,
     /// Files to write; the ending chooses: .mat, .npz, .json or .csv for the linear model, .vtu for the mode shapes.
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     pub(crate) to: Vec<PathBuf>,
@@ -201,12 +201,6 @@ pub(crate) struct ExportOptions {
     /// The time history of this manoeuvre instead of the linear model: .csv, .parquet, .mat, .npz or .json.
     #[arg(long, value_name = "NAME")]
     pub(crate) manoeuvre: Option<String>,
-    /// Variant of the case; the first one by default.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) variant: Option<String>,
-    /// No notes on standard error.
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,12 +1,13 @@
 //! Results of a case in the formats of other programs, chosen by the ending of the file.
 
-use crate::args::{CaseOptions, ExportOptions};
+use crate::args::ExportOptions;
 use crate::case::{self, Loaded};
-use crate::output::{Failure, print, remark, write_bytes};
+use crate::output::{Failure, print, print_json, remark, write_bytes};
 use crate::tables;
 use albatross::analysis::{self, Trimmed};
 use albatross::export::{self, Mesh, OperatingPoint, Record, Transfer};
 use albatross::flight::TimeHistory;
+use serde_json::json;
 use std::path::Path;
 
 /// A format by its ending.
@@ -60,12 +61,7 @@ pub(crate) fn export(options: &ExportOptions) -> Result<(), Failure> {
             options.cancel
         )));
     }
-    let loaded = case::load_with_notes(&CaseOptions {
-        case: options.case.clone(),
-        variant: options.variant.clone(),
-        json: false,
-        quiet: options.quiet,
-    })?;
+    let loaded = case::load_with_notes(&options.case)?;
     let has = |wanted: bool| formats.iter().any(|f| (*f == Format::Vtu) == wanted);
     let main = has(false)
         .then(|| compute(subject, options.cancel, &loaded))
@@ -79,14 +75,21 @@ pub(crate) fn export(options: &ExportOptions) -> Result<(), Failure> {
             files.push((path, bytes(*format, outcome)?, description(outcome)));
         }
     }
-    for (path, bytes, what) in files {
-        write_bytes(path, &bytes)?;
+    for (path, bytes, _) in &files {
+        write_bytes(path, bytes)?;
+    }
+    let notes: Vec<String> = [&main, &shapes].into_iter().flatten().flat_map(notes).collect();
+    if options.case.json {
+        let list = files
+            .iter()
+            .map(|(path, _, what)| json!({ "file": path, "content": what }));
+        return print_json(&json!({ "files": list.collect::<Vec<_>>(), "notes": notes }));
+    }
+    for (path, _, what) in &files {
         print(&format!("{}: {what}", path.display()))?;
     }
-    if !options.quiet {
-        let all = [&main, &shapes].into_iter().flatten();
-        all.flat_map(notes)
-            .for_each(|note| remark(&format!("note: {note}")));
+    if !options.case.quiet {
+        notes.iter().for_each(|note| remark(&format!("note: {note}")));
     }
     Ok(())
 }

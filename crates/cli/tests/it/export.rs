@@ -285,6 +285,14 @@ fn val_a_transfer_function() {
 #[test]
 fn val_mode_shapes_in_vtk() {
     let exported = Exported::new(&case(), &[], &["shapes.vtu"]);
+    let again = exported.at("again.vtu").display().to_string();
+    let told = json(&["export", &case(), "--json", "--to", &again]);
+    assert_eq!(told["files"][0]["file"], again);
+    assert_eq!(
+        told["files"][0]["content"],
+        "20 modes on 898 points and 421 cells"
+    );
+    assert_eq!(exported.text("again.vtu"), exported.text("shapes.vtu"));
     let text = exported.text("shapes.vtu");
     // 114 grids and 196 strips of four corners; twenty modes of the case.
     assert!(text.contains("NumberOfPoints=\"898\" NumberOfCells=\"421\""));
