@@ -204,6 +204,9 @@ pub(crate) struct ExportOptions {
     /// Variant of the case; the first one by default.
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
+    /// JSON on standard output: the files and what they hold.
+    #[arg(long)]
+    pub(crate) json: bool,
     /// No notes on standard error.
     #[arg(long, short)]
     pub(crate) quiet: bool,

@@ -2,11 +2,12 @@
 
 use crate::args::{CaseOptions, ExportOptions};
 use crate::case::{self, Loaded};
-use crate::output::{Failure, print, remark, write_bytes};
+use crate::output::{Failure, print, print_json, remark, write_bytes};
 use crate::tables;
 use albatross::analysis::{self, Trimmed};
 use albatross::export::{self, Mesh, OperatingPoint, Record, Transfer};
 use albatross::flight::TimeHistory;
+use serde_json::json;
 use std::path::Path;
 
 /// A format by its ending.
@@ -79,9 +80,16 @@ pub(crate) fn export(options: &ExportOptions) -> Result<(), Failure> {
             files.push((path, bytes(*format, outcome)?, description(outcome)));
         }
     }
+    let mut written = Vec::new();
     for (path, bytes, what) in files {
         write_bytes(path, &bytes)?;
-        print(&format!("{}: {what}", path.display()))?;
+        if !options.json {
+            print(&format!("{}: {what}", path.display()))?;
+        }
+        written.push(json!({ "file": path, "content": what }));
+    }
+    if options.json {
+        print_json(&json!({ "files": written }))?;
     }
     if !options.quiet {
         let all = [&main, &shapes].into_iter().flatten();
