@@ -2,7 +2,7 @@
 
 use super::escape::marked;
 use crate::plot::axis::{Axis, Scale};
-use crate::plot::curve::{Point, extremes};
+use crate::plot::curve::{Point, extremes, simplify};
 use crate::plot::palette::{Dash, Marker, Style};
 use crate::plot::panel::{Guide, Panel, Series};
 use crate::plot::sheet::{LegendPlace, Sheet, Stack};
@@ -16,8 +16,10 @@ const AXIS_ROOM: f64 = 52.0;
 const LEGEND_ROW: f64 = 22.0;
 const TITLE_ROOM: f64 = 24.0;
 
-/// Columns of abscissae in which a long curve keeps its extremes: two pixels wide or less where it is drawn widest.
-const COLUMNS: f64 = 1000.0;
+/// Points from which on a line is thinned, and the size in pixels of the picture that must stay the same: several times
+/// that of the screen, for those who zoom.
+const LONG: usize = 1000;
+const MAGNIFIED: (f64, f64) = (5000.0, 1500.0);
 
 /// Part of a curve's range that its values are rounded to: a tenth of what the finest screen shows.
 const RESOLUTION: f64 = 1e-5;
@@ -280,23 +282,39 @@ fn marker(marker: Marker, style: &Style) -> Value {
     json!({ "symbol": symbol, "size": size, "color": style.colour.hex(), "line": { "width": outline } })
 }
 
-/// The coordinates to be sent: long curves keep the extremes of narrow columns, and digits that cannot be seen are cut off.
+/// The coordinates to be sent. Of long lines only the points remain that change the picture, and digits that cannot be seen
+/// are cut off.
 fn points(series: &Series) -> (Vec<f64>, Vec<f64>) {
-    let (round_x, round_y) = (
-        rounding(extent([&series.x].into_iter())),
-        rounding(extent([&series.y].into_iter())),
-    );
+    let (x_range, y_range) = (extent([&series.x].into_iter()), extent([&series.y].into_iter()));
+    let (round_x, round_y) = (rounding(x_range), rounding(y_range));
     let all: Vec<Point> = series.points().collect();
-    let ends = extent([&series.x].into_iter());
-    // A gap would be lost among extremes.
-    let whole = series.labels.is_empty() && all.iter().all(|(x, y)| x.is_finite() && y.is_finite());
-    let kept = match ends {
-        Some((low, high)) if whole && high > low && all.len() > 2 * COLUMNS as usize => {
-            extremes(&all, |x| ((x - low) / (high - low) * COLUMNS).floor())
-        }
+    let line_alone = series.style.line.is_some() && series.style.marker.is_none() && series.labels.is_empty();
+    // A gap would be lost.
+    let whole = all.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+    let kept = match (x_range, y_range) {
+        (Some(x), Some(y)) if line_alone && whole && x.1 > x.0 && all.len() > LONG => thinned(&all, x, y),
         _ => all,
     };
     kept.into_iter().map(|(x, y)| (round_x(x), round_y(y))).unzip()
+}
+
+/// The points that make a magnified picture of a line.
+fn thinned(line: &[Point], (x_low, x_high): (f64, f64), (y_low, y_high): (f64, f64)) -> Vec<Point> {
+    let (width, height) = MAGNIFIED;
+    let across = width / (x_high - x_low);
+    let up = if y_high > y_low {
+        height / (y_high - y_low)
+    } else {
+        1.0
+    };
+    let drawn: Vec<Point> = line
+        .iter()
+        .map(|(x, y)| (across * (x - x_low), up * (y - y_low)))
+        .collect();
+    simplify(&extremes(&drawn, f64::floor))
+        .into_iter()
+        .map(|(x, y)| (x_low + x / across, y_low + y / up))
+        .collect()
 }
 
 /// Rounds to a decimal that resolves the range; values over several decades (frequencies) keep six digits each.
@@ -498,15 +516,34 @@ mod tests {
     }
 
     #[test]
-    fn long_curves_keep_their_peaks() {
+    fn long_curves_keep_their_shape_and_peaks() {
         let x: Vec<f64> = (0..100_000).map(|i| f64::from(i) * 1e-3).collect();
-        let y: Vec<f64> = (0..100_000)
-            .map(|i| if i == 54_321 { 1.0 } else { 0.0 })
+        let y: Vec<f64> = x
+            .iter()
+            .map(|t| t.sin() + if (*t - 54.321).abs() < 1e-6 { 5.0 } else { 0.0 })
             .collect();
         let (kept_x, kept_y) = points(&Series::new("s", Style::model(0), x, y));
-        assert!(kept_x.len() < 8000);
-        let peak = kept_y.iter().position(|v| *v == 1.0).unwrap();
-        assert!((kept_x[peak] - 54.321).abs() < 1e-3);
+        assert!(kept_x.len() < 4000, "{}", kept_x.len());
+        let highest = kept_x
+            .iter()
+            .zip(&kept_y)
+            .max_by(|a, b| a.1.total_cmp(b.1))
+            .unwrap();
+        assert!((highest.0 - 54.321).abs() < 2e-3, "{highest:?}");
+        // Straight lines between the points kept stay within a thousandth of the range of the curve.
+        for (ends, values) in kept_x.windows(2).zip(kept_y.windows(2)) {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            if (middle - 54.321).abs() > 0.1 {
+                assert!(
+                    (0.5 * (values[0] + values[1]) - middle.sin()).abs() < 2e-3,
+                    "{middle}"
+                );
+            }
+        }
+        // Points are never thinned.
+        let many = vec![0.0; 3000];
+        let (x, _) = points(&Series::new("p", Style::points(0), many.clone(), many));
+        assert_eq!(x.len(), 3000);
     }
 
     #[test]

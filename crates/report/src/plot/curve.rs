@@ -153,7 +153,7 @@ fn cut(line: &[Point], window: &Window) -> Vec<Vec<Point>> {
 
 /// Drops points within the tolerance of the line between those kept. The work list replaces recursion, whose
 /// depth would grow with the data.
-fn simplify(line: &[Point]) -> Vec<Point> {
+pub(crate) fn simplify(line: &[Point]) -> Vec<Point> {
     if line.len() < 3 {
         return line.to_vec();
     }
