@@ -50,7 +50,7 @@ pub fn speeds_around(speed: f64, low: f64, high: f64, count: usize) -> Vec<f64> 
 /// left out with a note. Speeds are taken side by side.
 ///
 /// # Errors
-/// [`Error::Numerics`] where eigenvalues cannot be computed, those of [`linearize`].
+/// [`Error::Numerics`] where eigenvalues cannot be computed, those of [`linearize()`].
 pub fn root_locus(model: &Model, speeds: &[f64]) -> Result<RootLocus, Error> {
     let found: Vec<Result<Result<Roots, String>, Error>> =
         speeds.par_iter().map(|speed| roots(model, *speed)).collect();
