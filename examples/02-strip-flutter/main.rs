@@ -1,5 +1,7 @@
 //! Flutter of the Goland wing: a sweep over speed, its crossings, and a plot.
 
+#![allow(clippy::print_stdout, reason = "an example prints its findings")]
+
 use albatross::neutral::wing;
 use albatross::report::plot::{Axis, LinePlot, Panel, Series, Style};
 use albatross::strip::sweep::{Method, sweep};
