@@ -72,7 +72,8 @@ impl AerodynamicsCase {
                 CURE,
             )),
             (None, _, Some(name)) => Err((format!("[aerodynamics] has no `{name}`"), CURE)),
-            (None, ..) if self.lattice.is_some() => Err((
+            // The lattice's slopes between strips may come beside the files.
+            (None, ..) if self.lattice.is_some() && self.lift_slopes != LiftSlopes::Lattice => Err((
                 "[aerodynamics.lattice] is given, but the files of AVL are read".into(),
                 CURE,
             )),

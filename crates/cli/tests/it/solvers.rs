@@ -159,6 +159,21 @@ fn val_case_from_deck_and_geometry() {
     );
     let both = failure(&["trim", &copy.arg("case.toml")]);
     assert!(both.contains("`derivatives`"), "{both}");
+    // A lattice beside files is refused unless its slopes between strips are wanted.
+    let copy = CaseCopy::new();
+    copy.replace(
+        "case.toml",
+        "shape_reference",
+        "lattice = { method = \"avl332\" }\nshape_reference",
+    );
+    let idle = failure(&["trim", &copy.arg("case.toml")]);
+    assert!(idle.contains("[aerodynamics.lattice] is given"), "{idle}");
+    copy.replace(
+        "case.toml",
+        "shape_reference",
+        "lift_slopes = \"lattice\"\nshape_reference",
+    );
+    assert!((alpha(&trim(&copy.arg("case.toml"))) - alpha(&files)).abs() < 1e-4);
 }
 
 /// Lift between strips: no wing strip is lifted by its own incidence as much as by that of the whole aircraft less what
