@@ -15,9 +15,9 @@ pub(super) fn numbered(page: &str) -> BTreeMap<String, Vec<usize>> {
         if line.starts_with("```") {
             fenced = !fenced;
         } else if fenced {
-            // Two blanks set the number apart from the equation.
-            let last = line.rsplit("  ").next().unwrap_or_default();
-            if let Some(equation) = bracketed(last).filter(|_| line.len() > last.len()) {
+            // Two blanks set the number apart from the equation, and from what may follow it.
+            let last = line.rfind("  (").and_then(|at| bracketed(&line[at + 2..]));
+            if let Some((equation, _)) = last.filter(|(_, rest)| rest.is_empty() || rest.starts_with("  ")) {
                 found.entry(equation.to_owned()).or_default().push(number + 1);
             }
         }
@@ -25,10 +25,10 @@ pub(super) fn numbered(page: &str) -> BTreeMap<String, Vec<usize>> {
     found
 }
 
-/// `12` of `(12)` or `(12)` with words behind.
-fn bracketed(text: &str) -> Option<&str> {
-    let (number, _) = text.strip_prefix('(')?.split_once(')')?;
-    is_number(number).then_some(number)
+/// `12` of `(12)`, and what stands behind it.
+fn bracketed(text: &str) -> Option<(&str, &str)> {
+    let (number, rest) = text.strip_prefix('(')?.split_once(')')?;
+    is_number(number).then_some((number, rest))
 }
 
 /// One to three digits, perhaps a letter: years have four.
@@ -51,7 +51,7 @@ pub(super) fn check_page(page: &str, numbered: &BTreeMap<String, Vec<usize>>) ->
         while let Some(at) = rest.find('(') {
             let apart = rest[..at].chars().last().is_none_or(|c| c.is_whitespace());
             rest = &rest[at..];
-            if let Some(number) = bracketed(rest).filter(|n| apart && !numbered.contains_key(*n)) {
+            if let Some((number, _)) = bracketed(rest).filter(|(n, _)| apart && !numbered.contains_key(*n)) {
                 found.push(format!("{PAGE}:{}: equation ({number}) is not there", line + 1));
             }
             rest = &rest[1..];
