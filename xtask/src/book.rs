@@ -70,7 +70,10 @@ fn gather(root: &Path, to: &Path) -> Result<BTreeSet<String>, Error> {
 }
 
 fn refused(chapter: &str, link: &markdown::Link, why: &str) -> Error {
-    Error::Failed(format!("{chapter}:{}: the link to {} {why}", link.line, link.file))
+    Error::Failed(format!(
+        "{chapter}:{}: the link to {} {why}",
+        link.line, link.file
+    ))
 }
 
 /// The table of contents with paths from the root.
@@ -119,10 +122,16 @@ mod tests {
     #[test]
     fn paths_are_taken_from_the_root() {
         assert_eq!(joined("docs/A.md", "B.md").as_deref(), Some("docs/B.md"));
-        assert_eq!(joined("docs/A.md", "../examples/x/README.md").as_deref(), Some("examples/x/README.md"));
+        assert_eq!(
+            joined("docs/A.md", "../examples/x/README.md").as_deref(),
+            Some("examples/x/README.md")
+        );
         assert_eq!(joined("docs/A.md", "../../x"), None);
         let summary = "# Summary\n\n- [A](A.md)\n  - [B](../b/B.md)\n";
-        assert_eq!(from_root(summary), "# Summary\n\n- [A](docs/A.md)\n  - [B](b/B.md)\n");
+        assert_eq!(
+            from_root(summary),
+            "# Summary\n\n- [A](docs/A.md)\n  - [B](b/B.md)\n"
+        );
     }
 
     /// Every page that a chapter links to is a chapter, every other file is copied.
@@ -135,7 +144,10 @@ mod tests {
             let text = workspace::read(&to.path().join(chapter)).unwrap();
             for link in markdown::links(&text) {
                 let file = joined(chapter, &link.file).unwrap();
-                assert!(link.file.is_empty() || to.path().join(&file).is_file(), "{chapter}: {file}");
+                assert!(
+                    link.file.is_empty() || to.path().join(&file).is_file(),
+                    "{chapter}: {file}"
+                );
             }
         }
     }
@@ -152,6 +164,9 @@ mod tests {
         write("docs/A.md", "[b](B.md)\n");
         write("docs/B.md", "b\n");
         let error = gather(root.path(), &root.path().join("out")).unwrap_err();
-        assert_eq!(error.to_string(), "docs/A.md:1: the link to B.md is no chapter of docs/SUMMARY.md");
+        assert_eq!(
+            error.to_string(),
+            "docs/A.md:1: the link to B.md is no chapter of docs/SUMMARY.md"
+        );
     }
 }

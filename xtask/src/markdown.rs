@@ -89,7 +89,10 @@ fn outside_fences(text: &str) -> impl Iterator<Item = (usize, &str)> {
 fn prose(text: &str) -> impl Iterator<Item = (usize, String)> {
     outside_fences(text).map(|(number, line)| {
         let parts = line.split('`').enumerate();
-        (number, parts.filter(|(i, _)| i % 2 == 0).map(|(_, part)| part).collect())
+        (
+            number,
+            parts.filter(|(i, _)| i % 2 == 0).map(|(_, part)| part).collect(),
+        )
     })
 }
 
@@ -105,13 +108,19 @@ mod tests {
             file: file.into(),
             anchor: anchor.into(),
         };
-        assert_eq!(links(text), [link(1, "b.md", "c"), link(1, "y.rs", ""), link(5, "", "d")]);
+        assert_eq!(
+            links(text),
+            [link(1, "b.md", "c"), link(1, "y.rs", ""), link(5, "", "d")]
+        );
     }
 
     #[test]
     fn headings_have_the_names_of_their_sites() {
         let text = "# 1. Limits, and why\n## `[[engine]]`\n<a id=\"own\"></a>\n## Sensors\n## Sensors\n```sh\n# no\n```\n#no\n";
         let found: Vec<String> = anchors(text).into_iter().collect();
-        assert_eq!(found, ["1-limits-and-why", "engine", "own", "sensors", "sensors-1"]);
+        assert_eq!(
+            found,
+            ["1-limits-and-why", "engine", "own", "sensors", "sensors-1"]
+        );
     }
 }

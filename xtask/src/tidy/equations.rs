@@ -84,7 +84,8 @@ pub(super) fn check_source(path: &str, text: &str, numbered: &BTreeMap<String, V
 mod tests {
     use super::*;
 
-    const THEORY: &str = "# T\n(1940) and (1) but f(7)\n```text\na = b        (1)\nc = f(3)\nd    (9a)  Eq. 2\n```\n";
+    const THEORY: &str =
+        "# T\n(1940) and (1) but f(7)\n```text\na = b        (1)\nc = f(3)\nd    (9a)  Eq. 2\n```\n";
 
     #[test]
     fn numbers_stand_at_the_ends_of_lines_in_blocks() {

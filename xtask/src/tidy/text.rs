@@ -51,7 +51,7 @@ fn dead_links(root: &Path, path: &str, text: &str) -> Vec<String> {
         } else {
             directory.join(&link.file)
         };
-        if !target.exists() {
+        if !link.file.is_empty() && !target.exists() {
             return Some(format!("links to {}, which is not there", link.file));
         }
         if link.anchor.is_empty() || target.extension().is_none_or(|e| e != "md") {
@@ -62,8 +62,12 @@ fn dead_links(root: &Path, path: &str, text: &str) -> Vec<String> {
         } else {
             markdown::anchors(&std::fs::read_to_string(&target).ok()?)
         };
-        (!there.contains(&link.anchor))
-            .then(|| format!("links to {}#{}, which has no such heading", link.file, link.anchor))
+        (!there.contains(&link.anchor)).then(|| {
+            format!(
+                "links to {}#{}, which has no such heading",
+                link.file, link.anchor
+            )
+        })
     };
     let found = markdown::links(text).into_iter();
     found
