@@ -142,7 +142,7 @@ impl Results {
         let (kept, kept_files) = if search {
             search::run(root, &study)?
         } else {
-            Kept::read(&root.join(KEPT))?
+            Kept::read(&root.join(KEPT), &study)?
         };
         let stale = kept.stale(root)?;
         let since = Instant::now();
