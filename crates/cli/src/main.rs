@@ -6,6 +6,7 @@ mod check;
 mod excerpt;
 mod export;
 mod figures;
+mod gathered;
 mod identification;
 mod lattice;
 mod neutral;
