@@ -1,5 +1,7 @@
 //! The command `albatross`.
 
+#![warn(clippy::indexing_slicing, clippy::string_slice)]
+
 mod args;
 mod case;
 mod check;

@@ -411,9 +411,10 @@ impl Case {
         }
         let mut surfaces: Vec<&str> = self.aerodynamics.surfaces.iter().map(|s| s.name.trim()).collect();
         surfaces.sort_unstable();
-        if let Some(pair) = surfaces.windows(2).find(|w| w[0].eq_ignore_ascii_case(w[1])) {
+        let mut pairs = surfaces.iter().zip(surfaces.iter().skip(1));
+        if let Some((name, _)) = pairs.find(|(a, b)| a.eq_ignore_ascii_case(b)) {
             return refuse(
-                format!("surface `{}` is listed twice", pair[0]),
+                format!("surface `{name}` is listed twice"),
                 "list it once: its strips would count twice",
             );
         }
@@ -433,11 +434,8 @@ impl Case {
         }
         let mut names: Vec<&str> = self.variants.iter().map(|v| v.name.as_str()).collect();
         names.sort_unstable();
-        if let Some(pair) = names.windows(2).find(|w| w[0] == w[1]) {
-            return refuse(
-                format!("two variants are named `{}`", pair[0]),
-                "rename one of them",
-            );
+        if let Some((name, _)) = names.iter().zip(names.iter().skip(1)).find(|(a, b)| a == b) {
+            return refuse(format!("two variants are named `{name}`"), "rename one of them");
         }
         Ok(())
     }
