@@ -301,8 +301,8 @@ const FAULTS: [Fault; 29] = [
     },
     Fault {
         what: "factor of masses that is no number",
-        deck: Some(("PARAM,GRDPNT,0", "PARAM,WTMASS,NaN")),
-        message: &["PARAM WTMASS", "NaN", "positive number"],
+        deck: Some(("PARAM,GRDPNT,0", "PARAM,WTMASS,NAN")),
+        message: &["PARAM WTMASS", "NAN", "positive number"],
         ..SOUND
     },
     Fault {

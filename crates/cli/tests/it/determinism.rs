@@ -7,8 +7,9 @@ use std::process::Command;
 
 /// Standard output and the files written by commands, each in a directory of its own, with so many threads.
 ///
-/// No file is left out of the comparison: none holds a date, a time taken or a path that changes. `run` without `--json`
-/// ends its text with the seconds that it took, which is why `--json` is given; progress goes to standard error.
+/// No file is left out of the comparison. Of `identify` the key `seconds`, the time taken, is, in its JSON; nothing else
+/// holds a date, a time or a path that changes. `run` without `--json` ends its text with the seconds that it took, which is
+/// why `--json` is given; progress goes to standard error.
 fn outcome(commands: &[(&str, Vec<String>)], threads: &str, place: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for (name, arguments) in commands {
@@ -23,12 +24,27 @@ fn outcome(commands: &[(&str, Vec<String>)], threads: &str, place: &Path) -> BTr
             .unwrap();
         let message = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{name}: {message}");
-        found.insert(format!("{name}: standard output"), output.stdout);
-        for (file, content) in files(&directory) {
-            found.insert(format!("{name}: {file}"), content);
+        let timed = ["identify", "search"].contains(name);
+        let content = |bytes: Vec<u8>| if timed { without_seconds(bytes) } else { bytes };
+        found.insert(format!("{name}: standard output"), content(output.stdout));
+        for (file, bytes) in files(&directory) {
+            found.insert(format!("{name}: {file}"), content(bytes));
         }
     }
     found
+}
+
+/// Text without the lines of the key `seconds`; other content as it is.
+fn without_seconds(bytes: Vec<u8>) -> Vec<u8> {
+    match String::from_utf8(bytes) {
+        Ok(text) => text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("\"seconds\": "))
+            .flat_map(|line| [line, "\n"])
+            .collect::<String>()
+            .into_bytes(),
+        Err(other) => other.into_bytes(),
+    }
 }
 
 /// Files of a directory and of those in it.
