@@ -4,6 +4,8 @@
 //! acts. On the strips between two sections that declare the control, thin-airfoil theory gives the lift as a share
 //! `tau` of the strip's own slope and the moment about the quarter chord; one factor a control then scales them so that
 //! lift, side force and rolling moment meet the rigid derivatives in the least-squares sense.
+//!
+//! Equations: THEORY (16), (16a).
 
 use albatross_avl::geometry::{Geometry, Surface};
 use albatross_flight::aerodynamics::RigidAerodynamics;

@@ -8,6 +8,8 @@
 //! theta (Ericsson and Ruhe, Math. Comp. 35, 1980; Grimes, Lewis and Simon, SIAM J. Matrix Anal. 15, 1994). The basis
 //! is kept M-orthonormal against all earlier blocks by two Gram-Schmidt passes. M may be singular: vectors without
 //! mass are purged because every basis block, and every result, is a product of the operator.
+//!
+//! Equations: THEORY (44).
 
 use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;

@@ -1,4 +1,6 @@
 //! Normal modes, K phi = lambda M phi.
+//!
+//! Equations: THEORY (39).
 
 use albatross_nastran::deck::Id;
 use albatross_nastran::{

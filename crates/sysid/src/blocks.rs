@@ -14,6 +14,8 @@
 //!                     [-a0/w  -a1 ]     [w]
 //! first order    x' = -a x + w u                     x  = w/D u
 //! ```
+//!
+//! Equations: THEORY (28a).
 
 use std::cmp::Ordering;
 
