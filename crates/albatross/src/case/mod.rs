@@ -331,7 +331,14 @@ impl BodeCase {
 /// Most frequencies of a response: each costs about 0.3 ms.
 const MOST_FREQUENCIES: usize = 100_000;
 /// Files that a run writes beside those of the manoeuvres.
-const RESULT_FILES: [&str; 5] = ["modes", "strips", "bode", "modes_elastic", "modes_rigid_body"];
+const RESULT_FILES: [&str; 6] = [
+    "modes",
+    "strips",
+    "bode",
+    "modes_elastic",
+    "modes_rigid_body",
+    "mode_shapes",
+];
 
 /// Method of integration where a manoeuvre names none.
 pub(crate) fn default_method() -> Method {

@@ -27,6 +27,8 @@ pub(super) enum Range {
     Below(f64, f64),
     /// Between two numbers.
     Between(f64, f64),
+    /// Where the standard atmosphere holds, m.
+    Altitude,
 }
 
 impl Range {
@@ -39,6 +41,7 @@ impl Range {
                 Self::Within(low, high) => (low..=high).contains(&v),
                 Self::Below(low, high) => (low..high).contains(&v),
                 Self::Between(low, high) => low < v && v < high,
+                Self::Altitude => ALTITUDES.contains(&v),
             }
     }
 }
@@ -52,6 +55,13 @@ impl fmt::Display for Range {
             Self::Within(low, high) => write!(f, "a number from {low} to {high}"),
             Self::Below(low, high) => write!(f, "a number from {low} to below {high}"),
             Self::Between(low, high) => write!(f, "a number between {low} and {high}"),
+            Self::Altitude => {
+                let (low, high) = (ALTITUDES.start(), ALTITUDES.end());
+                write!(
+                    f,
+                    "an altitude from {low} to {high} m, where the model of the atmosphere holds"
+                )
+            }
         }
     }
 }
@@ -154,8 +164,7 @@ impl Case {
         if let Some(speed) = flight.speed {
             add("[flight]", "speed", speed, Positive);
         }
-        let altitudes = Within(*ALTITUDES.start(), *ALTITUDES.end());
-        add("[flight]", "altitude", flight.altitude, altitudes);
+        add("[flight]", "altitude", flight.altitude, Range::Altitude);
         add(
             "[flight]",
             "path_angle_deg",
