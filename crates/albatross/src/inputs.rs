@@ -211,7 +211,8 @@ fn solve_aerodynamics(
     let flight = &case.flight;
     let pressure = 0.5 * atmosphere::standard(flight.altitude).density * flight.speed().powi(2);
     let level = Level {
-        mach: choice.mach.unwrap_or(if geometry.mach > 0.0 {
+        // A negative Mach number is refused by the lattice, not replaced.
+        mach: choice.mach.unwrap_or(if geometry.mach != 0.0 {
             geometry.mach
         } else {
             flight.mach()

@@ -73,6 +73,9 @@
 //! # Source
 //! M. Drela and H. Youngren, *AVL User Primer* (`avl_doc.txt`), and the output of AVL 3.32, 3.35, 3.40 and 3.52.
 
+// What is read comes from outside: nothing of it is indexed or cut by position.
+#![warn(clippy::indexing_slicing, clippy::string_slice)]
+
 mod error;
 mod fortran;
 mod source;

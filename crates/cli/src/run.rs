@@ -2,7 +2,8 @@
 
 use crate::args::RunOptions;
 use crate::case::{self, Loaded};
-use crate::output::{Failure, Gathered, print, print_json, write};
+use crate::gathered::Gathered;
+use crate::output::{Failure, print, print_json, write};
 use crate::progress::Progress;
 use crate::{figures, report, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};

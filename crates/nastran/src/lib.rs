@@ -72,6 +72,9 @@
 //! - MSC Nastran Quick Reference Guide: layout of cards and field formats.
 //! - NASTRAN User's Manual, NASA SP-222(08), 1986: the same for NASTRAN-95.
 
+// What is read comes from outside: nothing of it is indexed or cut by position.
+#![warn(clippy::indexing_slicing, clippy::string_slice)]
+
 pub mod bdf;
 pub mod deck;
 mod error;

@@ -110,6 +110,7 @@ mod spectrum;
 mod start;
 mod stillness;
 pub mod subspace;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod table;
 mod triangle;
 pub mod trim;

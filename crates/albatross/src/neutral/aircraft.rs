@@ -248,14 +248,9 @@ impl NeutralAircraft {
         let rigid_rows = strip_forces(&strips, &rigid_shapes, &shapes, &theory, Split::ApparentMass)
             .map_err(strip_error)?;
         // A strip without lift slope has no incidence worth of a control.
-        let worth = |j: usize| {
-            if s.cl_alpha[j] == 0.0 {
-                0.0
-            } else {
-                s.dcl_dde[j] / s.cl_alpha[j]
-            }
-        };
-        let control_incidence = Mat::from_fn(n, 1, |j, _| worth(j));
+        let worth = |(lift, slope): (&f64, &f64)| if *slope == 0.0 { 0.0 } else { lift / slope };
+        let worth: Vec<f64> = s.dcl_dde.iter().zip(&s.cl_alpha).map(worth).collect();
+        let control_incidence = column(&worth);
         let structure = Structure::modal(&m.mu, &m.omega, &m.xi).map_err(strip_error)?;
         let model = AeroelasticModel::try_new(
             structure,

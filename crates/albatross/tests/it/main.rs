@@ -8,5 +8,6 @@
 )]
 
 mod f25;
+mod faults;
 mod flight_f25;
 mod oracle;

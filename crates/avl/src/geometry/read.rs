@@ -3,6 +3,7 @@
 use super::records::{Record, Records, Style};
 use super::{Airfoil, Body, CoreRadii, DragPolar, Geometry, Section, Spacing, Surface};
 use crate::error::{AvlError, Diagnostic};
+use crate::fortran::is_not_finite;
 use crate::source::Line;
 
 /// What the keywords now refer to.
@@ -188,6 +189,11 @@ impl<'a> Reader<'a> {
             "BFIL" => self.body_file()?,
             "BSEC" => self.body_section(record)?,
             _ => {
+                let first = record.text.split_whitespace().next().unwrap_or_default();
+                if is_not_finite(first) {
+                    let expected = "a keyword, or the number CDp at the end of the header";
+                    return Err(record.line.bad_number(first, 0, "line", expected));
+                }
                 let message = format!(
                     "`{}` is no keyword: ignored, as AVL does",
                     crate::source::excerpt(record.text)

@@ -3,7 +3,8 @@
 use super::args::{CompareOptions, InitialChoice};
 use super::system::{SeenPole, System, conversion, names};
 use super::{figures, json, records, tables};
-use crate::output::{Failure, Gathered, print, print_json, remark};
+use crate::gathered::Gathered;
+use crate::output::{Failure, print, print_json, remark};
 use albatross::lti::Signal;
 use albatross::numerics::C64;
 use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Marker, ScatterPlot, Series, Style};

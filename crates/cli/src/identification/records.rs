@@ -35,7 +35,11 @@ pub(crate) fn read_files(
     sampling: &SamplingOptions,
     quiet: bool,
 ) -> Result<Records, Failure> {
-    if let Some((i, file)) = files.iter().enumerate().find(|(i, f)| files[..*i].contains(f)) {
+    if let Some((i, file)) = files
+        .iter()
+        .enumerate()
+        .find(|(i, f)| files.iter().take(*i).any(|g| g == *f))
+    {
         return Err(Failure::Other(format!(
             "{} is given twice (record {}): name every record once",
             file.display(),
@@ -45,7 +49,7 @@ pub(crate) fn read_files(
     if let Some((_, name)) = outputs
         .iter()
         .enumerate()
-        .find(|(i, o)| outputs[..*i].contains(o))
+        .find(|(i, o)| outputs.iter().take(*i).any(|p| p == *o))
     {
         return Err(Failure::Other(format!(
             "the output `{name}` is given twice: name every output once"

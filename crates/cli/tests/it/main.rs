@@ -4,9 +4,11 @@
 
 mod case_page;
 mod check;
+mod determinism;
 mod export;
 mod formats_page;
 mod identify;
+mod killed;
 mod options;
 mod report;
 mod solvers;
