@@ -180,7 +180,7 @@ fn cure(message: &str) -> &'static str {
         "add the structural damping as a ratio of critical, such as `damping_ratio = 0.01`; there is no default"
     } else if message.contains("missing field") {
         "add the key; docs/CASE.md describes each"
-    } else if message.contains("enum Damping") {
+    } else if message.contains("damping_ratio is neither") {
         "give a number such as 0.01, or a list of numbers, one for each mode"
     } else {
         "correct the line; docs/CASE.md describes every key"
