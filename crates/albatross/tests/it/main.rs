@@ -7,6 +7,8 @@
     reason = "a test stops where it fails"
 )]
 
+mod damage;
 mod f25;
 mod flight_f25;
 mod oracle;
+mod readers;
