@@ -28,7 +28,7 @@ pub struct LinearFile {
 /// is for messages.
 ///
 /// # Errors
-/// [`Error::Table`] for text that is neither, for lists of the wrong lengths and for numbers that are not finite.
+/// [`Error::Table`] for text that is neither, for lists of the wrong lengths, more zeros than poles and a negative delay.
 pub fn parse(text: &str, file: &str) -> Result<LinearFile, Error> {
     let malformed = |line: usize, message: String| Error::Table {
         file: file.to_owned(),
@@ -66,20 +66,25 @@ pub fn parse(text: &str, file: &str) -> Result<LinearFile, Error> {
     Ok(LinearFile { model, initial })
 }
 
-/// A model whose lists have the lengths that its order asks for.
+/// A model whose lists have the lengths that its order asks for, and which is proper and causal.
 fn identified(value: Value) -> Result<Model, String> {
     let model: Model = serde_json::from_value(value).map_err(|e| e.to_string())?;
     let (order, outputs) = (model.order(), model.outputs.len());
     let fits = model.coefficients.len() == outputs
         && model.direct.len() == outputs
         && model.coefficients.iter().all(|c| c.len() == order);
-    if fits && outputs > 0 && order > 0 {
-        Ok(model)
-    } else {
-        Err(format!(
+    if !(fits && outputs > 0 && order > 0) {
+        return Err(format!(
             "a model with {order} poles and {outputs} outputs, but {} lists of coefficients of lengths {:?}",
             model.coefficients.len(),
             model.coefficients.iter().map(Vec::len).collect::<Vec<_>>()
-        ))
+        ));
     }
+    if model.zeros > order {
+        return Err(format!("a model with {order} poles and {} zeros", model.zeros));
+    }
+    if model.delay < 0.0 {
+        return Err(format!("a model with a delay of {} s", model.delay));
+    }
+    Ok(model)
 }

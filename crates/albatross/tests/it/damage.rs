@@ -82,7 +82,7 @@ fn mutated(bytes: &[u8], random: &mut fastrand::Rng) -> Vec<u8> {
                 let to = random.usize(..out.len());
                 out.splice(to..to, copy);
             }
-            4 => out[at] = b"0123456789.-+*=,;{}[]\"' \t\n#$|"[random.usize(..30)],
+            4 => out[at] = b"0123456789.-+*=,;{}[]\"' \t\n#$|"[random.usize(..29)],
             _ => drop(out.splice(
                 at..end.min(at + 8),
                 WORDS[random.usize(..WORDS.len())].iter().copied(),
@@ -244,17 +244,12 @@ fn prop_hostile_sizes_are_refused() {
 fn regress_includes_that_double_are_bounded() {
     use albatross::nastran::bdf::{Included, parse_with};
     let mut count = 0;
-    let (_, remarks) = parse_with(b"INCLUDE 'a'\nINCLUDE 'b'\n", "main.bdf", |path, _| {
+    parse_with(b"INCLUDE 'a'\nINCLUDE 'b'\n", "main.bdf", |path, _| {
         count += 1;
         Ok(Included {
             name: format!("{path}{count}"),
             text: b"INCLUDE 'a'\nINCLUDE 'b'\nGRID,1\n".to_vec(),
         })
     });
-    assert!(count <= 10_000, "{count}");
-    let text: Vec<String> = remarks.iter().map(ToString::to_string).collect();
-    assert!(
-        text.iter().any(|r| r.contains("more than 10000 included files")),
-        "{text:?}"
-    );
+    assert_eq!(count, 10_000);
 }
