@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: every check that a change must pass, in order, with a summary.
 
 use crate::error::Error;
-use crate::{examples, tidy, validate, workspace};
+use crate::{examples, first_hour, tidy, validate, workspace};
 use std::process::Command;
 
 /// The tests, as the README names them.
@@ -36,6 +36,10 @@ pub(crate) fn run() -> Result<(), Error> {
     for (name, arguments, environment) in STEPS {
         outcomes.push((name, cargo(arguments, environment)));
     }
+    outcomes.push((
+        "first-hour --check",
+        first_hour::run(&first_hour::Options::check()),
+    ));
     outcomes.push(("examples --check", examples::run(&examples::Options::check())));
     outcomes.push(("validate --check", validate::run(&validate::Options::check())));
     println!();

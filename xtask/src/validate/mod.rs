@@ -28,7 +28,7 @@ mod solved;
 mod study;
 mod tables;
 
-pub(crate) use check::differences_of_texts;
+pub(crate) use check::{END_OF_MEASURED, MEASURED, differences_of_drawings, differences_of_pages};
 pub(crate) use paper::read_json;
 
 use crate::error::Error;

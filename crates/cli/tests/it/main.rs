@@ -73,6 +73,7 @@ fn val_run_writes_every_result() {
         "doublet_3Hz.csv",
         "doublet_3Hz.svg",
         "root_locus.json",
+        "mode_shapes.svg",
         "report.html",
     ] {
         assert!(std::fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");
