@@ -17,6 +17,8 @@ const WIDE_STEP: f64 = 0.12;
 /// Steps are not halved below this.
 const LEAST_STEP: f64 = 1e-3;
 const MOST_STATIONS: usize = 1500;
+/// Chords that differ by more make the range of wave numbers too long to be searched.
+const LARGEST_CHORD_RATIO: f64 = 1e6;
 /// Real parts below this share of the modulus are rounding.
 const NEUTRAL: f64 = 1e-10;
 
@@ -36,7 +38,7 @@ impl Station {
 
 /// Frequencies of roots that grow at the highest wave number, and brackets of all changes of side below it.
 pub(super) fn scan(modal: &ModalOperator, kernel: Kernel<'_>) -> Result<(Vec<f64>, Vec<Bracket>), Error> {
-    let mut stations = grid(&modal.operator.semi_chords)
+    let mut stations = grid(&modal.operator.semi_chords)?
         .into_iter()
         .map(|ln_kappa| Station::at(modal, kernel, ln_kappa))
         .collect::<Result<Vec<_>, _>>()?;
@@ -80,9 +82,18 @@ pub(super) fn scan(modal: &ModalOperator, kernel: Kernel<'_>) -> Result<(Vec<f64
 }
 
 /// Logarithms of the wave numbers to start with, descending.
-fn grid(semi_chords: &[f64]) -> Vec<f64> {
+fn grid(semi_chords: &[f64]) -> Result<Vec<f64>, Error> {
     let narrowest = semi_chords.iter().copied().fold(f64::INFINITY, f64::min);
     let widest = semi_chords.iter().copied().fold(0.0, f64::max);
+    let ratio = widest / narrowest;
+    let ends = [HIGHEST_K / narrowest, LOWEST_K / widest];
+    if !(ratio <= LARGEST_CHORD_RATIO && ends.iter().all(|k| k.is_normal())) {
+        return Err(Error::BadOption {
+            option: "the ratio of the widest to the narrowest chord",
+            value: ratio,
+            expected: "at most 1e6, of chords in metres; correct the strip table",
+        });
+    }
     let (end, usual) = (
         (LOWEST_K / widest).ln(),
         (USUAL_K[1] / widest).ln()..=(USUAL_K[0] / narrowest).ln(),
@@ -98,7 +109,7 @@ fn grid(semi_chords: &[f64]) -> Vec<f64> {
         };
         grid.push(last - step);
     }
-    grid
+    Ok(grid)
 }
 
 /// Roots p of `p^2 A + p D + K`, rigid-body modes' zeros left out.
