@@ -78,6 +78,7 @@ impl<'r> DeckReader<'r> {
     }
 
     fn file(&mut self, text: &[u8], file: u32) {
+        self.builder.allow_for(text);
         let mut lines = Lines::new(text);
         let mut statement: Option<(IncludeStatement, u32)> = None;
         while let Some(line) = lines.next() {
@@ -142,7 +143,9 @@ impl<'r> DeckReader<'r> {
                     file,
                     line,
                     "INCLUDE",
-                    format!("{path:?} is more than {MOST_INCLUDES} included files; no further one is followed"),
+                    format!(
+                        "{path:?} is more than {MOST_INCLUDES} included files; no further one is followed"
+                    ),
                 );
             }
             return;

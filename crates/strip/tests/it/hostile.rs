@@ -294,10 +294,7 @@ fn regress_chords_of_no_scale_are_refused() {
     for chords in [[1e-308, 1.0], [1.0, 1e300], [1e-300, 1e-300], [1e-5, 10.0]] {
         let strips = chords.map(|chord| Strip { chord, ..strip() }).to_vec();
         let found = model(strips, shapes(2, 2), &JONES).and_then(|m| lag_flutter(&m, 1.0));
-        assert!(
-            !matches!(found, Ok(Some(_))),
-            "{chords:?}: {found:?}"
-        );
+        assert!(!matches!(found, Ok(Some(_))), "{chords:?}: {found:?}");
     }
     let strips = [1e-9, 1.0].map(|chord| Strip { chord, ..strip() }).to_vec();
     let found = model(strips, shapes(2, 2), &JONES).and_then(|m| lag_flutter(&m, 1.0));

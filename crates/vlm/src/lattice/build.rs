@@ -15,6 +15,8 @@ use crate::spacing::{ChordStation, chord_stations};
 const MOST_VORTICES: usize = 20_000;
 /// Most nodes of a body.
 const MOST_NODES: usize = 10_000;
+/// Most controls and design variables; AVL's own limit is 30 of each. Every strip asks for every one.
+const MOST_VARIABLES: usize = 1000;
 
 /// Text of files that the geometry names: path as written in, text out; `None` where there is no such file.
 pub type Files<'f> = dyn Fn(&str) -> Option<String> + 'f;
@@ -28,7 +30,7 @@ impl Lattice {
     /// # Errors
     /// [`Error::NoSurfaces`]; [`Error::Surface`] for sections without chord or distance, or too few strips;
     /// [`Error::Airfoil`]; [`Error::Body`]; [`Error::Value`] for reference lengths that are not positive and for more than
-    /// 20 000 vortices or 10 000 nodes of a body.
+    /// 20 000 vortices, 10 000 nodes of a body or 1000 controls and design variables.
     pub fn new(geometry: &Geometry, files: &Files<'_>) -> Result<(Self, Vec<String>)> {
         check_header(geometry)?;
         check_size(geometry)?;
@@ -332,14 +334,19 @@ fn check_size(geometry: &Geometry) -> Result<()> {
         total = total.saturating_add(own);
         if total > MOST_VORTICES {
             return Err(Error::Value {
-                what: format!(
-                    "the number of vortices up to surface \"{}\"",
-                    surface.name.trim()
-                ),
+                what: format!("the number of vortices up to surface \"{}\"", surface.name.trim()),
                 value: total as f64,
                 expected: "at most 20000: lower its Nchord or Nspan",
             });
         }
+    }
+    let variables = geometry.control_names().len() + geometry.design_names().len();
+    if variables > MOST_VARIABLES {
+        return Err(Error::Value {
+            what: "the number of controls and design variables".to_owned(),
+            value: variables as f64,
+            expected: "at most 1000: give those that move together one name",
+        });
     }
     match geometry.bodies.iter().find(|b| b.spacing.count > MOST_NODES) {
         Some(body) => Err(Error::Value {
