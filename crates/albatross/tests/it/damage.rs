@@ -184,6 +184,13 @@ fn reader(name: &str) -> &'static Reader {
     READERS.iter().find(|r| r.name == name).unwrap()
 }
 
+/// A surface of as many controls as strips, each of which would look for each.
+fn strips_with_controls() -> String {
+    let section = |k: usize| format!("SECTION\n0 {k} 0 1 0 1 0\nCONTROL\nc{k} 1 .7 0 1 0 1\n");
+    let head = "w\n0\n0 0 0\n1 1 1\n0 0 0\nSURFACE\nw\n1 1\n".to_owned();
+    head + &(0..2000).map(section).collect::<String>()
+}
+
 /// Announced sizes, ranges and nesting beyond reason.
 #[test]
 fn prop_hostile_sizes_are_refused() {
@@ -207,6 +214,9 @@ fn prop_hostile_sizes_are_refused() {
             "bdf",
             "SPC1,1,123,1,THRU,999999999\nRBE2,1,1,123,1,THRU,x\n".repeat(200),
         ),
+        ("bdf", "ASET1,123,1,THRU,10000\n".repeat(400)),
+        ("bdf", "GRID,1\n=,*1\n=(999999)\n".to_owned()),
+        ("avl_lattice", strips_with_controls()),
         ("wing_json", r#"{"y": [1], "dy": [1e400]}"#.to_owned()),
         (
             "linear_json",
@@ -227,6 +237,10 @@ fn prop_hostile_sizes_are_refused() {
     // Odd, but nothing that must be refused.
     for (name, text) in [
         ("avl_geometry", wing("3", "3") + &many_controls),
+        (
+            "bdf",
+            format!("SET1,1,1,THRU,99999999,EXCEPT{}\n", ",1,THRU,1000000".repeat(500)),
+        ),
         ("bdf", "SPOINT,1,THRU,999999999\n".to_owned()),
         ("bdf", "SET1,1,1,THRU,999999999,BY,7\n".to_owned()),
         ("bdf", "ASET1,123,1,THRU,999999999\n".to_owned()),
