@@ -43,6 +43,7 @@ pub mod controls;
 #[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod inputs;
 pub mod lattice;
+pub mod linear;
 pub mod model;
 pub mod modes;
 #[warn(clippy::indexing_slicing, clippy::string_slice)]

@@ -5,6 +5,7 @@ use super::{Airfoil, Body, CoreRadii, DragPolar, Geometry, Section, Spacing, Sur
 use crate::error::{AvlError, Diagnostic};
 use crate::fortran::is_not_finite;
 use crate::source::Line;
+use std::collections::BTreeMap;
 
 /// What the keywords now refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,8 +22,8 @@ pub(super) struct Reader<'a> {
     active: Active,
     /// Where each surface starts.
     headings: Vec<Line<'a>>,
-    /// Names of all controls, in the order in which they first come.
-    pub(super) control_names: Vec<String>,
+    /// Names of all controls, with their places in the order in which they first come.
+    pub(super) control_names: BTreeMap<String, usize>,
 }
 
 impl Geometry {
@@ -51,7 +52,7 @@ impl Geometry {
             geometry,
             active: Active::Nothing,
             headings: Vec::new(),
-            control_names: Vec::new(),
+            control_names: BTreeMap::new(),
         };
         // The line behind the header is the profile drag if it is a number.
         let mut pending = reader.records.read();
