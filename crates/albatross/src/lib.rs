@@ -39,6 +39,7 @@ pub mod check;
 pub mod controls;
 pub mod inputs;
 pub mod lattice;
+pub mod mode_table;
 pub mod model;
 pub mod modes;
 pub mod neutral;

@@ -14,6 +14,7 @@
 //! | [`state_space`] | matrices and names | [`StateSpace`]: selection and connection by name |
 //! | [`modes`] | a system | [`Mode`]: frequency, damping, participating states |
 //! | [`track`](mod@track) | a family of matrices | eigenvalues in the order of the modes chosen at its start |
+//! | [`lags`] | a matrix with lag states | single eigenvalues by their elimination, followed along a path |
 //! | [`frequency`] | a system, frequencies in rad/s | [`Response`]: magnitude and unwrapped phase |
 //! | [`simulation`] | a system, sampled or continuous inputs | [`History`] of states and outputs |
 //! | [`zpk`], [`polynomial`] | a channel | zeros, poles and gain; transfer function; state space again |
@@ -56,6 +57,7 @@
 mod error;
 pub mod exponential;
 pub mod frequency;
+pub mod lags;
 pub mod modes;
 pub mod polynomial;
 mod realisation;
@@ -68,6 +70,7 @@ pub mod zpk;
 
 pub use error::{Error, Result, SignalKind};
 pub use frequency::{Channel, FrequencySolver, Method, Response, frequency_response};
+pub use lags::{LagForm, Root};
 pub use modes::{Mode, Participation, mode_table, mode_table_of};
 pub use polynomial::TransferFunction;
 pub use simulation::{History, Hold, simulate, simulate_rk4};
