@@ -257,8 +257,7 @@ impl Path {
     }
 
     fn dense(&self, chosen: &[C64]) -> Result<Vec<Certain>, Error> {
-        let followed =
-            Tracker::new(self.from.as_ref(), chosen, Self::options())?.follow(self.to.as_ref())?;
+        let followed = Tracker::new(self.from.as_ref(), chosen, Self::options())?.follow(self.to.as_ref())?;
         Ok(followed
             .modes
             .iter()

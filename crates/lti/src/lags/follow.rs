@@ -39,12 +39,7 @@ struct Doubt {
 /// # Errors
 /// [`Error::Unresolved`] where a root is not certain at the least step, meets another one, or leaves the real axis or comes
 /// down on it; [`Error::Numerics`] for forms of different size, [`Error::Domain`] for options out of range.
-pub fn follow(
-    from: &LagForm,
-    to: &LagForm,
-    roots: &[Root],
-    options: TrackOptions,
-) -> Result<FollowedRoots> {
+pub fn follow(from: &LagForm, to: &LagForm, roots: &[Root], options: TrackOptions) -> Result<FollowedRoots> {
     check_options(&options)?;
     let size = |form: &LagForm| (form.core_count(), form.lag_count());
     check_shape("the form to follow to", size(to), size(from))?;
@@ -105,10 +100,7 @@ fn one_step(
 ) -> std::result::Result<Vec<(Root, f64)>, Doubt> {
     let mut next: Vec<(Root, f64)> = Vec::with_capacity(roots.len());
     for (index, old) in roots.iter().enumerate() {
-        let doubt = |overlap| Doubt {
-            root: index,
-            overlap,
-        };
+        let doubt = |overlap| Doubt { root: index, overlap };
         let new = form.root_like(old, effort).ok_or_else(|| doubt(0.0))?;
         let share = new.share_in(old);
         let certain = (1.0 - share).abs() <= tolerance;

@@ -44,7 +44,11 @@ impl Root {
                 } else {
                     inner(old.left_side(), self.right_side(), false)
                 };
-                let old_product = if conjugate { old.product.conj() } else { old.product };
+                let old_product = if conjugate {
+                    old.product.conj()
+                } else {
+                    old.product
+                };
                 (onto * from / (self.product * old_product)).re
             })
             .sum()
@@ -114,8 +118,7 @@ impl LagForm {
             .ok_or_else(|| bad("it is not an eigenvalue of the first matrix"))?;
         let size: f64 = {
             let core = root.left.iter().zip(&root.right).map(|(l, r)| (l * r).norm());
-            let lags = (0..self.lag_count())
-                .map(|k| (root.left_lags.at(k) * root.right_lags.at(k)).norm());
+            let lags = (0..self.lag_count()).map(|k| (root.left_lags.at(k) * root.right_lags.at(k)).norm());
             core.chain(lags).sum()
         };
         if root.product.norm() > 1e-10 * size {
