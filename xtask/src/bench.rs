@@ -1,4 +1,5 @@
-//! `cargo xtask bench`: runs the benches and collects their results in one table, with ratios within each group.
+//! `cargo xtask bench`: runs the benches and collects their results in one table, with ratios within each group and to the
+//! floors of the machine that were measured in the same run.
 
 use crate::ci::cargo;
 use crate::error::Error;
@@ -12,7 +13,7 @@ use std::time::SystemTime;
 /// Options of `cargo xtask bench`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
-    /// Write the results to a JSON file as well
+    /// Write the ratios to a JSON file as well: times are of one machine and one day, ratios less so
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Run only benches whose name contains this
@@ -42,10 +43,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
             "no results; run without --collect-only, or with another --filter".into(),
         ));
     }
-    let table = table(&results)?;
-    print!("{}", table.to_text());
+    print!("{}", table(&results)?.to_text());
     if let Some(path) = &options.json {
-        let mut text = table.to_json().to_string();
+        let mut text =
+            serde_json::to_string_pretty(&ratios(&results)).map_err(Error::json(Path::new("ratios")))?;
         text.push('\n');
         workspace::write_whole(path, &text)?;
         println!("written to {}", path.display());
@@ -73,6 +74,8 @@ struct Benchmark {
 #[derive(Debug, Clone, Copy, Deserialize)]
 enum Throughput {
     Bytes(f64),
+    /// Floating-point operations, in the benches that give any.
+    Elements(f64),
     #[serde(untagged)]
     Other(#[allow(dead_code)] serde::de::IgnoredAny),
 }
@@ -107,9 +110,58 @@ impl Measurement {
         self.estimates.median.point_estimate
     }
 
+    /// Bytes or operations a nanosecond.
+    fn rate(&self) -> Option<f64> {
+        match self.name.throughput {
+            Some(Throughput::Bytes(n) | Throughput::Elements(n)) => Some(n / self.median_ns()),
+            _ => None,
+        }
+    }
+
+    /// Time over that of the quickest of its group.
+    fn times_the_quickest(&self, all: &[Self]) -> f64 {
+        let quickest = all
+            .iter()
+            .filter(|other| other.same_group(self))
+            .map(Self::median_ns)
+            .fold(f64::INFINITY, f64::min);
+        self.median_ns() / quickest
+    }
+
     /// Whether a ratio of the two says something: one group, one parameter.
     fn same_group(&self, other: &Self) -> bool {
         (&self.name.group_id, &self.name.value_str) == (&other.name.group_id, &other.name.value_str)
+    }
+}
+
+/// Floors of the machine: the rate of a matrix product \[Gflop/s\] and the bandwidth of a copy \[GB/s\], one core.
+#[derive(Debug, Clone, Copy, Default)]
+struct Floors {
+    product: Option<f64>,
+    copy: Option<f64>,
+}
+
+impl Floors {
+    fn among(results: &[Measurement]) -> Self {
+        let rate = |name: &str| {
+            let of_name =
+                |m: &&Measurement| m.name.group_id == "floor" && m.name.function_id.as_deref() == Some(name);
+            results.iter().find(of_name).and_then(Measurement::rate)
+        };
+        Self {
+            product: rate("matrix product"),
+            copy: rate("copy"),
+        }
+    }
+
+    /// Times the time that the floor would take for the work.
+    fn ratio(&self, of: &Measurement) -> Option<f64> {
+        let floor = match of.name.throughput {
+            Some(Throughput::Bytes(_)) => self.copy,
+            Some(Throughput::Elements(_)) => self.product,
+            _ => None,
+        };
+        Some(floor? / of.rate()?)
     }
 }
 
@@ -155,20 +207,18 @@ fn table(results: &[Measurement]) -> Result<Table, Error> {
             time("median"),
             time("95 % from"),
             time("95 % to"),
-            Column::new("throughput", "MB/s", Format::Significant(3)),
+            Column::new("rate", "GB/s", Format::Significant(3)),
+            Column::new("rate", "Gflop/s", Format::Significant(3)),
+            Column::new("times the floor", "", Format::Significant(3)),
             Column::new("times the quickest of its group", "", Format::Fixed(2)),
         ],
     );
+    let floors = Floors::among(results);
     for result in results {
-        let quickest = results
-            .iter()
-            .filter(|other| other.same_group(result))
-            .map(Measurement::median_ns)
-            .fold(f64::INFINITY, f64::min);
         let interval = &result.estimates.median.confidence_interval;
-        let bytes = match result.name.throughput {
-            Some(Throughput::Bytes(bytes)) => Some(bytes),
-            _ => None,
+        let rate = |bytes: bool| {
+            let of_bytes = matches!(result.name.throughput, Some(Throughput::Bytes(_)));
+            result.rate().filter(|_| bytes == of_bytes)
         };
         table.push([
             Cell::from(result.name.group_id.as_str()),
@@ -177,12 +227,35 @@ fn table(results: &[Measurement]) -> Result<Table, Error> {
             (1e-9 * result.median_ns()).into(),
             (1e-9 * interval.lower_bound).into(),
             (1e-9 * interval.upper_bound).into(),
-            // Bytes per ns are GB/s.
-            bytes.map(|b| 1e3 * b / result.median_ns()).into(),
-            (result.median_ns() / quickest).into(),
+            rate(true).into(),
+            rate(false).into(),
+            floors.ratio(result).into(),
+            result.times_the_quickest(results).into(),
         ])?;
     }
     Ok(table)
+}
+
+/// What the JSON file holds: a list of benches with their ratios, three digits of them.
+fn ratios(results: &[Measurement]) -> serde_json::Value {
+    let floors = Floors::among(results);
+    let rounded = |value: f64| {
+        let text = format!("{value:.2e}");
+        text.parse::<f64>().unwrap_or(value)
+    };
+    results
+        .iter()
+        .filter(|result| result.name.group_id != "floor")
+        .map(|result| {
+            serde_json::json!({
+                "group": result.name.group_id,
+                "parameter": result.name.value_str,
+                "function": result.name.function_id,
+                "times_the_floor": floors.ratio(result).map(rounded),
+                "times_the_quickest_of_its_group": rounded(result.times_the_quickest(results)),
+            })
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -209,12 +282,29 @@ mod tests {
         write(directory.path(), "a", "slow", 4e6, "{\"Bytes\":1000000}");
         write(directory.path(), "a", "quick", 1e6, "null");
         write(directory.path(), "b", "alone", 5.0, "{\"Elements\":3}");
+        write(directory.path(), "floor", "copy", 1e8, "{\"Bytes\":1000000000}");
+        write(
+            directory.path(),
+            "floor",
+            "matrix product",
+            1e8,
+            "{\"Elements\":3000000000}",
+        );
         let results = collect(directory.path(), SystemTime::UNIX_EPOCH).unwrap();
         let csv = table(&results).unwrap().to_csv();
         let lines: Vec<&str> = csv.lines().collect();
-        assert_eq!(lines[1], "a,,quick,0.001,1e-9,2e-9,,1");
-        assert_eq!(lines[2], "a,,slow,0.004,1e-9,2e-9,250,4");
-        assert_eq!(lines[3], "b,,alone,5e-9,1e-9,2e-9,,1");
+        assert_eq!(lines[1], "a,,quick,0.001,1e-9,2e-9,,,,1");
+        assert_eq!(lines[2], "a,,slow,0.004,1e-9,2e-9,0.25,,40,4");
+        assert_eq!(lines[3], "b,,alone,5e-9,1e-9,2e-9,,0.6,50,1");
+        assert_eq!(lines[4], "floor,,copy,0.1,1e-9,2e-9,10,,1,1");
+        assert_eq!(lines[5], "floor,,matrix product,0.1,1e-9,2e-9,,30,1,1");
+        // The file holds no times, and no floors.
+        let text = ratios(&results).to_string();
+        assert_eq!(ratios(&results).as_array().unwrap().len(), 3);
+        assert!(
+            text.contains("\"times_the_floor\":40.0") && !text.contains("0.004"),
+            "{text}"
+        );
         assert!(
             collect(
                 directory.path(),

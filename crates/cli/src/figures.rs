@@ -6,7 +6,7 @@ use albatross::lti::Response;
 use albatross::report::plot::{
     Axis, BodeChannel, BodeCurve, BodePlot, Colour, LinePlot, Marker, Panel, ScatterPlot, Series, Style,
 };
-use albatross::root_locus::RootLocus;
+use albatross::root_locus::{Branch, BranchKind, RootLocus, Roots};
 
 /// Unit in which a channel is drawn, and the factor to it.
 fn shown(unit: &str) -> (&str, f64) {
@@ -137,16 +137,8 @@ impl Window {
     }
 }
 
-/// From light to dark, so that the order of speeds is seen without colours too.
-fn shade(part: f64) -> Colour {
-    let mix = |from: u8, to: u8| (f64::from(from) + part * (f64::from(to) - f64::from(from))).round() as u8;
-    let (Colour(light), Colour(dark)) = (Colour([0xB9, 0xDD, 0xF2]), Colour([0x00, 0x2F, 0x4F]));
-    Colour([
-        mix(light[0], dark[0]),
-        mix(light[1], dark[1]),
-        mix(light[2], dark[2]),
-    ])
-}
+/// Eigenvalues that belong to no branch, lag roots most of them.
+const FAINT: Colour = Colour([0xCF, 0xCF, 0xCF]);
 
 fn dots(colour: Colour, marker: Marker) -> Style {
     Style {
@@ -156,61 +148,136 @@ fn dots(colour: Colour, marker: Marker) -> Style {
     }
 }
 
-/// Eigenvalues over speed in the complex plane, darker with speed; the flight point stands out.
+fn kind(branch: &Branch) -> (&'static str, Colour) {
+    match branch.kind {
+        BranchKind::Elastic => ("elastic modes", Colour::BLUE),
+        BranchKind::RigidBody => ("rigid-body modes", Colour::VERMILLION),
+    }
+}
+
+/// Values of a branch by speed; gaps where it was not followed to or `drawn` refuses.
+fn along<'a>(
+    branch: &'a Branch,
+    drawn: impl Fn((f64, f64)) -> bool + 'a,
+) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let gap = (f64::NAN, f64::NAN);
+    branch
+        .values
+        .iter()
+        .map(move |v| v.filter(|value| drawn(*value)).unwrap_or(gap))
+}
+
+/// Position of the flight point among the speeds.
+fn at_flight_point(locus: &RootLocus, flight_speed: f64) -> Option<usize> {
+    let here = |point: &Roots| (point.speed / flight_speed - 1.0).abs() < 1e-9;
+    locus.points.iter().position(here)
+}
+
+/// The branches of the modes over speed in the complex plane, numbered at the flight point.
 pub(crate) fn locus(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> ScatterPlot {
     let window = Window::around(modes);
     let mut plot = ScatterPlot::pole_map("Root locus over speed", "rad/s").with_damping_rays(RAYS);
     plot.x = plot.x.with_limits(window.re.0, window.re.1);
     plot.y = plot.y.with_limits(0.0, window.im);
-    plot.height = 520.0;
-    let last = locus.points.len().max(2) - 1;
-    for (i, point) in locus.points.iter().enumerate() {
-        let at_flight_point = (point.speed / flight_speed - 1.0).abs() < 1e-9;
-        let style = if at_flight_point {
-            dots(Colour::VERMILLION, Marker::Cross)
-        } else {
-            dots(shade(i as f64 / last as f64), Marker::Disc)
+    plot.height = 560.0;
+    let (re, im): (Vec<f64>, Vec<f64>) = locus
+        .points
+        .iter()
+        .flat_map(|p| &p.values)
+        .copied()
+        .filter(|v| window.holds(*v))
+        .unzip();
+    plot = plot.with(Series::new(
+        "all eigenvalues",
+        dots(FAINT, Marker::Disc).with_width(0.8),
+        re,
+        im,
+    ));
+    for branch in &locus.branches {
+        let (name, colour) = kind(branch);
+        let style = Style {
+            colour,
+            ..Style::model(0)
         };
-        let name = if at_flight_point {
-            format!("{:.0} m/s, flight point", point.speed)
-        } else {
-            format!("{:.0} m/s", point.speed)
-        };
-        let (re, im): (Vec<f64>, Vec<f64>) =
-            point.values.iter().filter(|v| window.holds(**v)).copied().unzip();
+        let (re, im): (Vec<f64>, Vec<f64>) = along(branch, |_| true).unzip();
         plot = plot.with(Series::new(name, style, re, im));
+    }
+    let ends = |at: usize, name: String, marker: Marker, numbered: bool| {
+        let (mut re, mut im, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        for branch in &locus.branches {
+            if let Some(value) = branch
+                .values
+                .get(at)
+                .copied()
+                .flatten()
+                .filter(|v| window.holds(*v))
+            {
+                re.push(value.0);
+                im.push(value.1);
+                labels.push(branch.name.clone());
+            }
+        }
+        let series = Series::new(name, dots(Colour::BLACK, marker), re, im);
+        if numbered {
+            series.with_labels(labels)
+        } else {
+            series
+        }
+    };
+    if let Some(last) = locus.points.len().checked_sub(1) {
+        let fastest = locus.points[last].speed;
+        plot = plot.with(ends(
+            last,
+            format!("at {fastest:.0} m/s"),
+            Marker::Triangle,
+            false,
+        ));
+    }
+    if let Some(here) = at_flight_point(locus, flight_speed) {
+        let name = format!("flight point, {flight_speed:.0} m/s");
+        plot = plot.with(ends(here, name, Marker::Disc, true));
     }
     plot
 }
 
-/// Damping ratio beyond which an oscillation is taken for a lag and left out of the diagrams over speed.
+/// Damping ratio beyond which a mode is left out of the diagrams over speed.
 const MOST_DAMPING: f64 = 0.5;
 
-/// Frequency and damping of the oscillatory eigenvalues over speed.
+/// Frequency and damping of the modes over speed.
 pub(crate) fn frequency_and_damping(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> LinePlot {
     let window = Window::around(modes);
-    let (mut speed, mut frequency, mut damping) = (Vec::new(), Vec::new(), Vec::new());
-    for point in &locus.points {
-        for &(re, im) in point.values.iter().filter(|v| window.holds(**v)) {
-            let (omega, ratio) = (re.hypot(im), -re / re.hypot(im));
-            if im > 0.0 && ratio < MOST_DAMPING {
-                speed.push(point.speed);
-                frequency.push(omega);
-                damping.push(ratio);
+    let speeds: Vec<f64> = locus.points.iter().map(|p| p.speed).collect();
+    let here = at_flight_point(locus, flight_speed);
+    let of_frequency = |(re, im): (f64, f64)| re.hypot(im);
+    let of_damping = |(re, im): (f64, f64)| -re / re.hypot(im);
+    let drawn = |v: (f64, f64)| window.holds(v) && of_damping(v) < MOST_DAMPING;
+    let panel = |name: &str, unit: &str, height: f64, of: &dyn Fn((f64, f64)) -> f64| {
+        let mut panel = Panel::new(name, unit);
+        let (mut at, mut marked, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        for branch in &locus.branches {
+            let (name, colour) = kind(branch);
+            let style = Style {
+                colour,
+                ..Style::model(0)
+            };
+            let values: Vec<f64> = along(branch, drawn).map(of).collect();
+            if let Some(value) = here.and_then(|k| values.get(k)).filter(|v| v.is_finite()) {
+                at.push(flight_speed);
+                marked.push(*value);
+                labels.push(branch.name.clone());
             }
+            panel = panel.with(Series::new(name, style, speeds.clone(), values));
         }
-    }
-    let style = dots(Colour::BLUE, Marker::Disc);
-    let panel = |name: &str, unit: &str, values: Vec<f64>| {
-        Panel::new(name, unit)
-            .with(Series::new("", style, speed.clone(), values))
+        let points = Series::new("", dots(Colour::BLACK, Marker::Disc), at, marked).with_labels(labels);
+        panel
+            .with(points)
             .with_guide_x(flight_speed, "flight point")
-            .with_height(230.0)
+            .with_height(height)
     };
     LinePlot::new(
         "Frequency and damping over speed",
         Axis::new("True airspeed", "m/s"),
     )
-    .with(panel("Frequency", "rad/s", frequency))
-    .with(panel("Damping ratio", "", damping).with_guide_y(0.0, ""))
+    .with(panel("Frequency", "rad/s", 380.0, &of_frequency))
+    .with(panel("Damping ratio", "", 300.0, &of_damping).with_guide_y(0.0, ""))
 }

@@ -158,12 +158,13 @@ fn locus(results: &Results<'_>) -> Result<Section, ReportError> {
     section
         .figure(
             &figures::locus(locus, modes, speed),
-            "Upper half of the complex plane, all eigenvalues that lie in the frame: on and near the real axis lag roots are \
-             among them.",
+            "Upper half of the complex plane: the modes followed from the flight point, where elastic modes carry their \
+             number, down to the lowest and up to the highest speed. Grey: all eigenvalues at these speeds, lag roots \
+             included. Dashed: constant damping ratio.",
         )?
         .figure(
             &figures::frequency_and_damping(locus, modes, speed),
-            "Oscillatory eigenvalues in the same frame with a damping ratio below 0.5.",
+            "The same modes over speed, as long as their damping ratio is below 0.5.",
         )?;
     Ok(section)
 }

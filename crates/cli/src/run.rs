@@ -63,7 +63,7 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
     })?;
     let locus = progress.stage("root locus", |_| {
         let speeds = root_locus::speeds_around(model.point.speed, LOCUS.0, LOCUS.1, LOCUS.2);
-        let locus = root_locus::root_locus(&model, &speeds)?;
+        let locus = root_locus::root_locus(&model, &mode_table, &speeds)?;
         write(&out.join("root_locus.json"), &pretty(&locus)?)?;
         Ok(locus)
     })?;

@@ -92,7 +92,7 @@ impl FrequencySolver {
         match &self.form {
             Form::Lu => lu_evaluate(&self.system, s),
             Form::Eigen(values, cv, vb) => eigen_evaluate(&self.system, (values, cv, vb), s),
-            Form::LagReduced(reduced) => reduced.evaluate(s),
+            Form::LagReduced(reduced) => Ok(reduced.evaluate(&[s])?.swap_remove(0)),
         }
     }
 
@@ -101,10 +101,16 @@ impl FrequencySolver {
     /// # Errors
     /// As [`FrequencySolver::evaluate`].
     pub fn response(&self, omega_rad_s: &[f64]) -> Result<Response> {
-        let values = omega_rad_s
-            .iter()
-            .map(|&w| self.evaluate(C64::new(0.0, w)))
-            .collect::<Result<Vec<_>>>()?;
+        let values = match &self.form {
+            Form::LagReduced(reduced) if omega_rad_s.iter().all(|w| w.is_finite()) => {
+                let points: Vec<C64> = omega_rad_s.iter().map(|&w| C64::new(0.0, w)).collect();
+                reduced.evaluate(&points)?
+            }
+            _ => omega_rad_s
+                .iter()
+                .map(|&w| self.evaluate(C64::new(0.0, w)))
+                .collect::<Result<Vec<_>>>()?,
+        };
         Ok(Response {
             omega_rad_s: omega_rad_s.to_vec(),
             inputs: self.system.inputs.clone(),

@@ -14,8 +14,10 @@
 //! | [`state_space`] | matrices and names | [`StateSpace`]: selection and connection by name |
 //! | [`modes`] | a system | [`Mode`]: frequency, damping, participating states |
 //! | [`track`](mod@track) | a family of matrices | eigenvalues in the order of the modes chosen at its start |
+//! | [`lags`] | a matrix with lag states | single eigenvalues by their elimination, followed along a path |
 //! | [`frequency`] | a system, frequencies in rad/s | [`Response`]: magnitude and unwrapped phase |
 //! | [`simulation`] | a system, sampled or continuous inputs | [`History`] of states and outputs |
+//! | [`stride`] | a system, sampled inputs | outputs alone, many steps at a time |
 //! | [`zpk`], [`polynomial`] | a channel | zeros, poles and gain; transfer function; state space again |
 //!
 //! Units are SI: time in s, frequencies in rad/s, and outputs per input in the units of the signals. All
@@ -51,21 +53,25 @@
 mod error;
 pub mod exponential;
 pub mod frequency;
+pub mod lags;
 pub mod modes;
 pub mod polynomial;
 mod realisation;
 mod reduced;
 pub mod simulation;
 pub mod state_space;
+pub mod stride;
 pub mod track;
 mod zeros;
 pub mod zpk;
 
 pub use error::{Error, Result, SignalKind};
 pub use frequency::{Channel, FrequencySolver, Method, Response, frequency_response};
+pub use lags::{LagForm, Root};
 pub use modes::{Mode, Participation, mode_table, mode_table_of};
 pub use polynomial::TransferFunction;
 pub use simulation::{History, Hold, simulate, simulate_rk4};
 pub use state_space::{Signal, StateSpace};
+pub use stride::OutputSimulator;
 pub use track::{Followed, TrackOptions, TrackedMode, Tracker, modes_carried_by, track};
 pub use zpk::Zpk;

@@ -11,6 +11,13 @@
 //!
 //! Equations: THEORY (26a).
 
+//!
+//! Lags whose S_g differ by a factor alone, as the two of one strip do, share one matrix and add up their weights. States
+//! that integrate one other core state, `s x_i = a x_j` (modal amplitudes are integrals of their rates), are put in by
+//! substitution, so that a matrix of half the order is left. Frequencies are taken in batches: the sum over g for all of
+//! them is one matrix product.
+
+use albatross_numerics::faer::linalg::solvers::{PartialPivLu, Solve};
 use albatross_numerics::matrix::axpy;
 use albatross_numerics::solve::ComplexLu;
 use albatross_numerics::{C64, Mat};
@@ -18,13 +25,15 @@ use albatross_numerics::{C64, Mat};
 use crate::frequency::at_pole;
 use crate::{Error, Result, StateSpace};
 
-/// Lags of one rate, condensed onto the rows they act on and the columns that drive them.
-#[derive(Debug, Clone)]
-struct Group {
-    rate: f64,
-    /// S_g on the active rows and columns, row after row.
-    coupling: Vec<f64>,
-}
+/// Frequencies evaluated together.
+const BATCH: usize = 16;
+/// Two condensed matrices are one times a factor if no entry differs by more than this share of the largest.
+const ALIKE: f64 = 1e-14;
+/// Ratio of pivots from which on the equilibrated factorisation with its condition estimate decides.
+const LEAST_PIVOT: f64 = 1e-9;
+
+/// Lags that share a matrix: their rates with the factor of each.
+type Shared = Vec<(f64, f64)>;
 
 /// A system with its lag states eliminated.
 #[derive(Debug, Clone)]
@@ -35,11 +44,17 @@ pub(crate) struct LagReduced {
     outputs: usize,
     /// S0 = [Axx, Bx; Cx, D], row after row.
     direct: Vec<f64>,
-    groups: Vec<Group>,
+    groups: Vec<Shared>,
+    /// S_g on the active rows and columns, row after row; a column a group.
+    coupling: Mat<f64>,
     /// Rows of S that the lags act on.
     rows: Vec<usize>,
     /// Columns of S that drive the lags.
     columns: Vec<usize>,
+    /// Integrators of one other core state: which, of which, and the coefficient.
+    integrators: Vec<(usize, usize, f64)>,
+    /// Core states that are none.
+    kept: Vec<usize>,
 }
 
 impl LagReduced {
@@ -124,7 +139,7 @@ impl LagReduced {
 
         let mut by_rate = lags.to_vec();
         by_rate.sort_by(|&p, &q| system.a[(p, p)].total_cmp(&system.a[(q, q)]).then(p.cmp(&q)));
-        let groups = by_rate
+        let condensed: Vec<(f64, Vec<f64>)> = by_rate
             .chunk_by(|&p, &q| system.a[(p, p)] == system.a[(q, q)])
             .map(|members| {
                 let mut coupling = vec![0.0; rows.len() * columns.len()];
@@ -134,11 +149,13 @@ impl LagReduced {
                         axpy(row_of(r, z), &drive, line);
                     }
                 }
-                Group {
-                    rate: system.a[(members[0], members[0])],
-                    coupling,
-                }
+                (system.a[(members[0], members[0])], coupling)
             })
+            .collect();
+        let (groups, coupling) = shared(condensed, rows.len() * columns.len());
+        let integrators = integrators(&direct, (nc, nu), &rows);
+        let kept = (0..nc)
+            .filter(|i| integrators.iter().all(|(integrator, ..)| integrator != i))
             .collect();
         Ok(Self {
             core: nc,
@@ -147,8 +164,11 @@ impl LagReduced {
             outputs: ny,
             direct,
             groups,
+            coupling,
             rows,
             columns,
+            integrators,
+            kept,
         })
     }
 
@@ -157,25 +177,30 @@ impl LagReduced {
         self.lags
     }
 
-    /// H(s), outputs x inputs.
-    pub(crate) fn evaluate(&self, s: C64) -> Result<Mat<C64>> {
-        let (nc, nu, ny) = (self.core, self.inputs, self.outputs);
-        let size = self.rows.len() * self.columns.len();
-        let (mut re, mut im) = (vec![0.0; size], vec![0.0; size]);
-        for group in &self.groups {
-            let distance = s - group.rate;
-            if distance.norm() <= 4.0 * f64::EPSILON * s.norm() {
-                return Err(Error::PoleAtFrequency {
-                    omega_rad_s: s.im,
-                    re: s.re,
-                    im: s.im,
-                });
+    /// H(s), outputs x inputs, at each point.
+    pub(crate) fn evaluate(&self, points: &[C64]) -> Result<Vec<Mat<C64>>> {
+        let mut found = Vec::with_capacity(points.len());
+        for batch in points.chunks(BATCH) {
+            let mut weights = Mat::<f64>::zeros(self.groups.len(), 2 * batch.len());
+            for (k, &s) in batch.iter().enumerate() {
+                for (g, group) in self.groups.iter().enumerate() {
+                    let weight = weight(group, s)?;
+                    weights[(g, 2 * k)] = weight.re;
+                    weights[(g, 2 * k + 1)] = weight.im;
+                }
             }
-            let weight = distance.inv();
-            axpy(weight.re, &group.coupling, &mut re);
-            axpy(weight.im, &group.coupling, &mut im);
+            let through = &self.coupling * &weights;
+            for (k, &s) in batch.iter().enumerate() {
+                let (re, im) = (through.col_as_slice(2 * k), through.col_as_slice(2 * k + 1));
+                found.push(self.at(s, re, im)?);
+            }
         }
-        let width = nc + nu;
+        Ok(found)
+    }
+
+    /// H(s) from the sum over the groups.
+    fn at(&self, s: C64, re: &[f64], im: &[f64]) -> Result<Mat<C64>> {
+        let width = self.core + self.inputs;
         let mut whole: Vec<C64> = self.direct.iter().map(|&v| C64::new(v, 0.0)).collect();
         for (k, &r) in self.rows.iter().enumerate() {
             for (l, &c) in self.columns.iter().enumerate() {
@@ -183,7 +208,51 @@ impl LagReduced {
                 whole[r * width + c] += C64::new(re[at], im[at]);
             }
         }
-        let entry = |r: usize, c: usize| whole[r * width + c];
+        if s.norm() > 0.0 {
+            let mut folded = whole.clone();
+            for &(i, j, a) in &self.integrators {
+                let factor = a / s;
+                for line in folded.chunks_exact_mut(width) {
+                    let add = line[i] * factor;
+                    line[j] += add;
+                }
+            }
+            if let Some(h) = self.solved(s, &folded) {
+                return Ok(h);
+            }
+        }
+        self.solved_with_care(s, &whole)
+    }
+
+    /// Without the integrators, by plain factors; none where a pivot is small.
+    fn solved(&self, s: C64, whole: &[C64]) -> Option<Mat<C64>> {
+        let (nc, nu, ny, n) = (self.core, self.inputs, self.outputs, self.kept.len());
+        let entry = |r: usize, c: usize| whole[r * (nc + nu) + c];
+        let shifted = Mat::from_fn(n, n, |i, j| {
+            let value = -entry(self.kept[i], self.kept[j]);
+            if i == j { s + value } else { value }
+        });
+        let lu = PartialPivLu::new(shifted.as_ref());
+        let pivots = (0..n).map(|i| lu.U()[(i, i)].norm());
+        let (least, largest) = pivots.fold((f64::INFINITY, 0.0_f64), |(l, m), p| (l.min(p), m.max(p)));
+        // Also for a NaN.
+        let fine = n == 0 || least > LEAST_PIVOT * largest;
+        if !fine {
+            return None;
+        }
+        let mut x = Mat::from_fn(n, nu, |i, j| entry(self.kept[i], nc + j));
+        lu.solve_in_place(x.as_mut());
+        Some(Mat::from_fn(ny, nu, |o, j| {
+            let states = self.kept.iter().enumerate();
+            let seen: C64 = states.map(|(k, &c)| entry(nc + o, c) * x[(k, j)]).sum();
+            seen + entry(nc + o, nc + j)
+        }))
+    }
+
+    /// The whole core, equilibrated, with an estimate of its condition.
+    fn solved_with_care(&self, s: C64, whole: &[C64]) -> Result<Mat<C64>> {
+        let (nc, nu, ny) = (self.core, self.inputs, self.outputs);
+        let entry = |r: usize, c: usize| whole[r * (nc + nu) + c];
         let shifted = Mat::from_fn(nc, nc, |i, j| if i == j { s - entry(i, j) } else { -entry(i, j) });
         let b = Mat::from_fn(nc, nu, |i, j| entry(i, nc + j));
         let x = ComplexLu::new(shifted.as_ref())
@@ -192,4 +261,75 @@ impl LagReduced {
         let c = Mat::from_fn(ny, nc, |i, j| entry(nc + i, j));
         Ok(&c * &x + Mat::from_fn(ny, nu, |i, j| entry(nc + i, nc + j)))
     }
+}
+
+/// Sum of the lags' factors over s - l.
+fn weight(group: &Shared, s: C64) -> Result<C64> {
+    let mut sum = C64::new(0.0, 0.0);
+    for &(rate, factor) in group {
+        let distance = s - rate;
+        if distance.norm_sqr() <= (4.0 * f64::EPSILON).powi(2) * s.norm_sqr() {
+            return Err(Error::PoleAtFrequency {
+                omega_rad_s: s.im,
+                re: s.re,
+                im: s.im,
+            });
+        }
+        sum += distance.conj() * (factor / distance.norm_sqr());
+    }
+    Ok(sum)
+}
+
+/// Puts rates together whose condensed matrices differ by a factor; a column a group.
+fn shared(condensed: Vec<(f64, Vec<f64>)>, size: usize) -> (Vec<Shared>, Mat<f64>) {
+    let peak = |v: &[f64]| {
+        let largest =
+            |best: (usize, f64), (i, v): (usize, &f64)| if v.abs() > best.1.abs() { (i, *v) } else { best };
+        v.iter().enumerate().fold((0, 0.0), largest)
+    };
+    let mut groups: Vec<Shared> = Vec::new();
+    // Matrices with the place and the value of their largest entry.
+    let mut kept: Vec<(Vec<f64>, usize, f64)> = Vec::new();
+    for (rate, coupling) in condensed {
+        let (place, value) = peak(&coupling);
+        let found = kept.iter().position(|(other, at, largest)| {
+            // Of entries that are equal but for rounding either may be the largest.
+            let factor = coupling[*at] / largest;
+            value.abs() <= (1.0 + 1e-12) * coupling[*at].abs()
+                && coupling
+                    .iter()
+                    .zip(other)
+                    .all(|(c, o)| (c - factor * o).abs() <= ALIKE * value.abs())
+        });
+        match found {
+            Some(k) => {
+                let (_, at, largest) = &kept[k];
+                groups[k].push((rate, coupling[*at] / largest));
+            }
+            None => {
+                groups.push(vec![(rate, 1.0)]);
+                kept.push((coupling, place, value));
+            }
+        }
+    }
+    let matrix = Mat::from_fn(size, kept.len(), |i, g| kept[g].0[i]);
+    (groups, matrix)
+}
+
+/// Core states whose rate is another core state times a number, which is none of them itself.
+fn integrators(direct: &[f64], (nc, nu): (usize, usize), rows: &[usize]) -> Vec<(usize, usize, f64)> {
+    let mut found: Vec<(usize, usize, f64)> = Vec::new();
+    let mut sources: Vec<usize> = Vec::new();
+    for (i, line) in direct.chunks_exact((nc + nu).max(1)).take(nc).enumerate() {
+        let mut entries = line.iter().enumerate().filter(|(_, v)| **v != 0.0);
+        let (Some((j, &a)), None) = (entries.next(), entries.next()) else {
+            continue;
+        };
+        let integrates = j != i && j < nc && !rows.contains(&i);
+        if integrates && !sources.contains(&i) && found.iter().all(|(other, ..)| *other != j) {
+            found.push((i, j, a));
+            sources.push(j);
+        }
+    }
+    found
 }

@@ -300,7 +300,7 @@ impl Tracker {
     }
 }
 
-fn check_options(options: &TrackOptions) -> Result<()> {
+pub(crate) fn check_options(options: &TrackOptions) -> Result<()> {
     let checks = [
         ("the largest step", options.largest_step, 0.0, 1.0),
         ("the least step", options.least_step, 0.0, options.largest_step),

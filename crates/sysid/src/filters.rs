@@ -13,10 +13,11 @@ use albatross_lti::exponential::exponential;
 use albatross_numerics::Mat;
 
 use crate::blocks::Block;
+use crate::lanes::{LANES, Length, Motion, side_by_side};
 use crate::{Intersample, Result};
 
 /// States of a second-order block with its cascade.
-const MOST: usize = 4;
+pub(crate) const MOST: usize = 4;
 
 /// When samples act: sample time, behaviour between samples, transport delay.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,14 +86,6 @@ impl Timing {
             .copied()
             .unwrap_or(0.0)
     }
-
-    fn after(&self, input: &[f64], k: usize) -> f64 {
-        (k + 1)
-            .checked_sub(self.whole)
-            .and_then(|i| input.get(i))
-            .copied()
-            .unwrap_or(0.0)
-    }
 }
 
 /// A block sampled: `x[k+1] = E x[k] + t0 u[k-1-n] + t1 u[k-n] + t2 u[k+1-n]` with a delay of n samples.
@@ -100,9 +93,9 @@ impl Timing {
 pub(crate) struct Sampled {
     /// Poles of the block.
     order: usize,
-    e: [[f64; MOST]; MOST],
-    taps: [[f64; MOST]; 3],
-    timing: Timing,
+    /// Lower triangular by blocks of the order: states x do not depend on their cascade r.
+    pub(crate) e: [[f64; MOST]; MOST],
+    pub(crate) taps: [[f64; MOST]; 3],
 }
 
 impl Sampled {
@@ -159,70 +152,7 @@ impl Sampled {
                 std::array::from_fn(|j| (0..MOST).map(|k| e[i][k] * first[k][j]).sum())
             });
         }
-        Ok(Self {
-            order,
-            e,
-            taps,
-            timing,
-        })
-    }
-
-    /// Appends the states over time, starting from rest: x, and r if `cascade`.
-    pub(crate) fn respond(&self, input: &[f64], cascade: bool, columns: &mut Vec<Vec<f64>>) {
-        let samples = input.len();
-        let input = Some(input);
-        match (self.order, cascade) {
-            (1, false) => self.run::<1>(input, [0.0; 1], samples, columns),
-            (1, true) | (2, false) => self.run::<2>(input, [0.0; 2], samples, columns),
-            _ => self.run::<4>(input, [0.0; 4], samples, columns),
-        }
-    }
-
-    /// Appends the free motion from unit rate: the states of a block struck at the first sample.
-    ///
-    /// Numerators of degree below the block's order span all its free motions, so x alone does.
-    pub(crate) fn ring(&self, samples: usize, cascade: bool, columns: &mut Vec<Vec<f64>>) {
-        match (self.order, cascade) {
-            (1, false) => self.run::<1>(None, [1.0], samples, columns),
-            (1, true) => self.run::<2>(None, [1.0, 0.0], samples, columns),
-            (_, false) => self.run::<2>(None, [0.0, 1.0], samples, columns),
-            _ => self.run::<4>(None, [0.0, 1.0, 0.0, 0.0], samples, columns),
-        }
-    }
-
-    /// The first N states; E is lower triangular by blocks, so they do not depend on the others.
-    fn run<const N: usize>(
-        &self,
-        input: Option<&[f64]>,
-        start: [f64; N],
-        samples: usize,
-        columns: &mut Vec<Vec<f64>>,
-    ) {
-        let e: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| self.e[i][j]));
-        let taps: [[f64; N]; 3] = self.taps.map(|tap| std::array::from_fn(|i| tap[i]));
-        let mut out: [Vec<f64>; N] = std::array::from_fn(|_| Vec::with_capacity(samples));
-        let mut x = start;
-        for k in 0..samples {
-            for (column, value) in out.iter_mut().zip(x) {
-                column.push(value);
-            }
-            let mut next: [f64; N] = std::array::from_fn(|i| (0..N).map(|j| e[i][j] * x[j]).sum());
-            if let Some(u) = input {
-                let u1 = self.timing.at(u, k);
-                // After the last sample nothing is asked for.
-                let u2 = self.timing.after(u, k);
-                let u0 = if self.timing.rest > 0.0 {
-                    self.timing.before(u, k)
-                } else {
-                    0.0
-                };
-                for i in 0..N {
-                    next[i] += taps[0][i] * u0 + taps[1][i] * u1 + taps[2][i] * u2;
-                }
-            }
-            x = next;
-        }
-        columns.extend(out);
+        Ok(Self { order, e, taps })
     }
 }
 
@@ -255,28 +185,19 @@ fn multiply(e: &[[f64; MOST]; MOST], x: [f64; MOST]) -> [f64; MOST] {
 }
 
 /// States of all blocks: `x` as they are, `r` of their cascades (empty if not asked for), in the order of the states.
+///
+/// A row stands for some samples, see [`rows_of`].
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signals {
     pub(crate) x: Vec<Vec<f64>>,
     pub(crate) r: Vec<Vec<f64>>,
 }
 
-impl Signals {
-    fn take(&mut self, columns: Vec<Vec<f64>>, order: usize) {
-        for (i, column) in columns.into_iter().enumerate() {
-            if i < order {
-                self.x.push(column);
-            } else {
-                self.r.push(column);
-            }
-        }
-    }
-}
-
 /// All blocks of a denominator, sampled.
 #[derive(Debug, Clone)]
 pub(crate) struct Bank {
     sampled: Vec<Sampled>,
+    timing: Timing,
 }
 
 impl Bank {
@@ -285,25 +206,54 @@ impl Bank {
             .iter()
             .map(|block| Sampled::new(*block, timing))
             .collect::<Result<_>>()?;
-        Ok(Self { sampled })
+        Ok(Self { sampled, timing })
     }
 
-    /// Responses to an input, from rest.
-    pub(crate) fn respond(&self, input: &[f64], cascade: bool) -> Signals {
-        self.gather(|sampled, columns| sampled.respond(input, cascade, columns))
+    /// Responses to an input, from rest; `block` samples a row.
+    pub(crate) fn respond(&self, input: &[f64], cascade: bool, block: usize) -> Signals {
+        // One before the first sample and one after the last: inputs at k-1, k and k+1 are neighbours.
+        let delayed: Vec<f64> = std::iter::once(0.0)
+            .chain((0..=input.len()).map(|k| self.timing.at(input, k)))
+            .collect();
+        self.gather(Motion::Forced(&delayed), input.len(), cascade, block)
     }
 
-    /// Free motions.
-    pub(crate) fn ring(&self, samples: usize, cascade: bool) -> Signals {
-        self.gather(|sampled, columns| sampled.ring(samples, cascade, columns))
+    /// Free motions from unit rate, the states of a block struck at the first sample; `block` samples a row.
+    ///
+    /// Numerators of degree below the block's order span all its free motions, so x alone does.
+    pub(crate) fn ring(&self, samples: usize, cascade: bool, block: usize) -> Signals {
+        self.gather(Motion::Free, samples, cascade, block)
     }
 
-    fn gather(&self, mut of: impl FnMut(&Sampled, &mut Vec<Vec<f64>>)) -> Signals {
+    fn gather(&self, motion: Motion<'_>, samples: usize, cascade: bool, block: usize) -> Signals {
+        let length = Length { samples, block };
+        let mut of_block: Vec<Vec<Vec<f64>>> = vec![Vec::new(); self.sampled.len()];
+        for order in [1, 2] {
+            let alike: Vec<usize> = (0..self.sampled.len())
+                .filter(|&i| self.sampled[i].order == order)
+                .collect();
+            for group in alike.chunks(LANES) {
+                let members: Vec<&Sampled> = group.iter().map(|&i| &self.sampled[i]).collect();
+                let columns = match (order, cascade) {
+                    (1, false) => side_by_side::<1, 1>(&members, motion, length),
+                    (1, true) => side_by_side::<2, 1>(&members, motion, length),
+                    (_, false) => side_by_side::<2, 2>(&members, motion, length),
+                    _ => side_by_side::<4, 2>(&members, motion, length),
+                };
+                for (&i, columns) in group.iter().zip(columns) {
+                    of_block[i] = columns;
+                }
+            }
+        }
         let mut signals = Signals::default();
-        for sampled in &self.sampled {
-            let mut columns = Vec::with_capacity(MOST);
-            of(sampled, &mut columns);
-            signals.take(columns, sampled.order);
+        for (columns, sampled) in of_block.into_iter().zip(&self.sampled) {
+            for (i, column) in columns.into_iter().enumerate() {
+                if i < sampled.order {
+                    signals.x.push(column);
+                } else {
+                    signals.r.push(column);
+                }
+            }
         }
         signals
     }
@@ -347,7 +297,7 @@ mod tests {
                 let expected = simulate(&system, 0.05, &samples, None, hold.into()).unwrap();
                 let signals = Bank::new(&[block], Timing::new(0.05, hold, 0.0))
                     .unwrap()
-                    .respond(&u, true);
+                    .respond(&u, true, 1);
                 for k in 0..u.len() {
                     for i in 0..n {
                         assert!((signals.x[i][k] - expected.outputs.row(k)[i]).abs() < 1e-12);
@@ -378,10 +328,10 @@ mod tests {
             for block in BLOCKS {
                 let coarse = Bank::new(&[block], Timing::new(0.05, hold, 0.115))
                     .unwrap()
-                    .respond(&u, true);
+                    .respond(&u, true, 1);
                 let whole = Bank::new(&[block], Timing::new(0.005, hold, 0.115))
                     .unwrap()
-                    .respond(&between, true);
+                    .respond(&between, true, 1);
                 for k in 0..n {
                     for (c, f) in coarse
                         .x
@@ -404,13 +354,45 @@ mod tests {
         let u = input(4000);
         let timing = Timing::new(1e-3, Intersample::Foh, 0.0);
         let bank = Bank::new(&[block], timing).unwrap();
-        let s = bank.respond(&u, true);
+        let s = bank.respond(&u, true, 1);
         // w s/D x2 by filtering x2 itself (linear between samples: second-order accurate).
-        let again = bank.respond(&s.x[1], false);
+        let again = bank.respond(&s.x[1], false, 1);
         for k in 0..u.len() {
             let exact = s.x[0][k] - a1 / w * s.r[1][k] - a0 / (w * w) * s.r[0][k];
             assert!((again.x[1][k] - exact).abs() < 2e-5, "{k}");
             assert!((again.x[0][k] - s.r[1][k]).abs() < 2e-5, "{k}");
         }
+    }
+    /// Many blocks at once, several samples a row: each column is the sum of the one alone over the root of its terms, the
+    /// last row of fewer samples; forced and free, with a delay between samples.
+    #[test]
+    fn val_rows_are_sums_of_samples() {
+        let mut blocks: Vec<Block> = (0..11)
+            .map(|i| Block::Second {
+                a1: 0.3 + 0.1 * f64::from(i),
+                a0: 9.0 + 8.0 * f64::from(i),
+            })
+            .collect();
+        blocks.insert(4, BLOCKS[3]);
+        let u = input(103);
+        let bank = Bank::new(&blocks, Timing::new(0.05, Intersample::Foh, 0.115)).unwrap();
+        for cascade in [false, true] {
+            let of = |block| {
+                let (forced, free) = (bank.respond(&u, cascade, block), bank.ring(103, cascade, block));
+                let all = [forced.x, forced.r, free.x, free.r].concat();
+                assert_eq!(all.len(), if cascade { 4 * 23 } else { 2 * 23 });
+                all
+            };
+            for (each, summed) in of(1).iter().zip(of(4)) {
+                assert_eq!(summed.len(), 26);
+                for (row, samples) in summed.iter().zip(each.chunks(4)) {
+                    let expected = samples.iter().sum::<f64>() / (samples.len() as f64).sqrt();
+                    assert!((row - expected).abs() < 1e-13 * (1.0 + expected.abs()));
+                }
+            }
+        }
+        // A block is the same alone and beside others.
+        let alone = Bank::new(&blocks[4..5], Timing::new(0.05, Intersample::Foh, 0.115)).unwrap();
+        assert_eq!(alone.respond(&u, true, 1).x[0], bank.respond(&u, true, 1).x[8]);
     }
 }

@@ -92,6 +92,7 @@ pub mod fit;
 mod fourier;
 pub mod hold;
 pub mod iv4;
+mod lanes;
 mod logarithm;
 pub mod matching;
 pub mod model;

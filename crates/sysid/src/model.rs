@@ -151,7 +151,7 @@ impl Model {
     /// [`Error::Lti`] when a pole overflows within one sample time.
     pub fn simulate(&self, input: &[f64], dt: f64, intersample: Intersample) -> Result<Vec<Vec<f64>>> {
         let timing = Timing::new(dt, intersample, self.delay);
-        let states = Bank::new(&self.blocks, timing)?.respond(input, false).x;
+        let states = Bank::new(&self.blocks, timing)?.respond(input, false, 1).x;
         let delayed = timing.delayed(input);
         Ok(self
             .coefficients
@@ -174,6 +174,8 @@ impl Model {
     /// Free motions of the model for a record: columns that an unknown initial state adds to every output.
     pub(crate) fn free_motions(&self, experiment: &Experiment) -> Result<Vec<Vec<f64>>> {
         let timing = Timing::new(experiment.dt, Intersample::Zoh, 0.0);
-        Ok(Bank::new(&self.blocks, timing)?.ring(experiment.len(), false).x)
+        Ok(Bank::new(&self.blocks, timing)?
+            .ring(experiment.len(), false, 1)
+            .x)
     }
 }

@@ -18,6 +18,7 @@ use albatross_numerics::matrix::axpy;
 use crate::blocks::Block;
 use crate::elimination::{Elimination, Record, Unknowns};
 use crate::filters::{Bank, Signals, Timing};
+use crate::lanes::rows_of;
 use crate::numerator::{Freedom, combine, tangents};
 use crate::{DataSet, Result};
 
@@ -98,8 +99,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Rows of means over blocks of samples, the columns `extra` last.
-    pub(crate) fn matrix(&self, extra: &[&Vec<f64>], block: usize) -> Mat<f64> {
+    /// The columns side by side, those of `extra` last.
+    pub(crate) fn matrix(&self, extra: &[&Vec<f64>]) -> Mat<f64> {
         let columns: Vec<&Vec<f64>> = self
             .local
             .iter()
@@ -107,26 +108,16 @@ impl Columns {
             .chain(&self.shared)
             .chain(extra.iter().copied())
             .collect();
-        matrix(&columns, block)
+        matrix(&columns)
     }
 }
 
-/// Columns side by side, each `block` samples in one row: their sum over the root of their number.
-///
-/// The equations are linear, so they hold for sums as for samples; white noise keeps its variance and smooth signals
-/// their energy, at a fraction of the rows.
-pub(crate) fn matrix(columns: &[&Vec<f64>], block: usize) -> Mat<f64> {
-    let rows = columns.first().map_or(0, |c| c.len().div_ceil(block));
+/// Columns side by side.
+pub(crate) fn matrix(columns: &[&Vec<f64>]) -> Mat<f64> {
+    let rows = columns.first().map_or(0, |c| c.len());
     let mut matrix = Mat::zeros(rows, columns.len());
     for (j, column) in columns.iter().enumerate() {
-        let to = matrix.col_as_slice_mut(j);
-        if block == 1 {
-            to.copy_from_slice(column);
-        } else {
-            for (t, samples) in to.iter_mut().zip(column.chunks(block)) {
-                *t = samples.iter().sum::<f64>() / (samples.len() as f64).sqrt();
-            }
-        }
+        matrix.col_as_slice_mut(j).copy_from_slice(column);
     }
     matrix
 }
@@ -140,22 +131,21 @@ impl Problem<'_> {
         self.data.outputs.len()
     }
 
-    /// Free motions for the longest record; none if the initial states are known.
-    pub(crate) fn ring(&self, bank: &Bank, wanted: bool, cascade: bool) -> Signals {
-        let longest = self.data.experiments.iter().map(|e| e.len()).max().unwrap_or(0);
+    /// Free motions of a record; none if its initial state is known.
+    pub(crate) fn ring(&self, bank: &Bank, experiment: usize, wanted: bool, cascade: bool) -> Signals {
         if wanted {
-            bank.ring(longest, cascade)
+            bank.ring(self.data.experiments[experiment].len(), cascade, self.block)
         } else {
             Signals::default()
         }
     }
 
-    /// Columns of the initial state and the constant of a record.
+    /// Columns of the initial state and the constant of a record with these free motions.
     pub(crate) fn local(&self, experiment: usize, ring: &Signals) -> Vec<Vec<f64>> {
         let record = &self.data.experiments[experiment];
-        let mut local: Vec<Vec<f64>> = ring.x.iter().map(|x| x[..record.len()].to_vec()).collect();
+        let mut local = ring.x.clone();
         if record.estimate_offset {
-            local.push(vec![1.0; record.len()]);
+            local.push(rows_of(&vec![1.0; record.len()], self.block));
         }
         local
     }
@@ -171,9 +161,23 @@ impl Problem<'_> {
         let order = x.len();
         let mut own = freedom.columns(x);
         if self.zeros >= order {
-            own.push(timing.delayed(&self.data.experiments[experiment].input));
+            let delayed = timing.delayed(&self.data.experiments[experiment].input);
+            own.push(rows_of(&delayed, self.block));
         }
         own
+    }
+
+    /// A measured output.
+    pub(crate) fn measured(&self, experiment: usize, output: usize) -> Vec<f64> {
+        rows_of(&self.data.experiments[experiment].outputs[output], self.block)
+    }
+
+    /// The same with a row a sample.
+    pub(crate) fn of_all_samples(&self) -> Self {
+        Self {
+            block: 1,
+            ..self.clone()
+        }
     }
 
     /// The best linear unknowns at a point.
@@ -181,11 +185,11 @@ impl Problem<'_> {
         let timing = self.timing(point.delay);
         let bank = Bank::new(&point.blocks, timing)?;
         let freedom = Freedom::new(&point.blocks, self.zeros);
-        let ring = self.ring(&bank, self.free_initial, false);
         let mut records = vec![Vec::new(); self.outputs()];
         let mut n_own = 0;
         for (e, experiment) in self.data.experiments.iter().enumerate() {
-            let x = bank.respond(&experiment.input, false).x;
+            let ring = self.ring(&bank, e, self.free_initial, false);
+            let x = bank.respond(&experiment.input, false, self.block).x;
             let columns = Columns {
                 local: self.local(e, &ring),
                 own: self.own(e, x, &freedom, timing),
@@ -195,7 +199,7 @@ impl Problem<'_> {
             for (o, of_output) in records.iter_mut().enumerate() {
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
+                    matrix: columns.matrix(&[&self.measured(e, o)]),
                     factor: self.factors[o][e],
                 });
             }
@@ -213,11 +217,11 @@ impl Problem<'_> {
     pub(crate) fn linearise(&self, fitted: &Fitted) -> Result<Elimination> {
         let timing = self.timing(fitted.point.delay);
         let bank = Bank::new(&fitted.point.blocks, timing)?;
-        let ring = self.ring(&bank, self.free_initial, true);
         let mut records = vec![Vec::new(); self.outputs()];
         let (mut n_own, mut n_shared) = (0, 0);
         for (e, experiment) in self.data.experiments.iter().enumerate() {
-            let forced = bank.respond(&experiment.input, true);
+            let ring = self.ring(&bank, e, self.free_initial, true);
+            let forced = bank.respond(&experiment.input, true, self.block);
             let mut columns = Columns {
                 local: self.local(e, &ring),
                 own: self.own(e, forced.x.clone(), &fitted.freedom, timing),
@@ -229,7 +233,7 @@ impl Problem<'_> {
                 n_shared = columns.shared.len();
                 of_output.push(Record {
                     local: columns.local.len(),
-                    matrix: columns.matrix(&[&experiment.outputs[o]], self.block),
+                    matrix: columns.matrix(&[&self.measured(e, o)]),
                     factor: self.factors[o][e],
                 });
             }
@@ -246,15 +250,14 @@ impl Problem<'_> {
         forced: &Signals,
         ring: &Signals,
     ) -> Vec<Vec<f64>> {
-        let experiment = &self.data.experiments[e];
         let c = fitted.coefficients(o);
         let f = &fitted.unknowns.local[o][e];
-        let samples = experiment.len();
+        let rows = forced.x.first().map_or(0, Vec::len);
         let tangents = tangents(&fitted.point.blocks, self.zeros, &c);
         let mut columns: Vec<Vec<f64>> = Vec::with_capacity(c.len() + 1);
         let mut at = 0;
         for block in &fitted.point.blocks {
-            let mut of_block = vec![vec![0.0; samples]; block.order()];
+            let mut of_block = vec![vec![0.0; rows]; block.order()];
             derivatives(*block, forced, at, &c, &mut of_block);
             if !ring.x.is_empty() {
                 derivatives(*block, ring, at, f, &mut of_block);
@@ -277,8 +280,8 @@ impl Problem<'_> {
         let timing = self.timing(fitted.point.delay);
         let input = &self.data.experiments[e].input;
         let dt = self.data.dt();
-        let delayed = timing.delayed(input);
-        let mut rate = vec![0.0; input.len()];
+        let delayed = rows_of(&timing.delayed(input), self.block);
+        let mut rate = vec![0.0; delayed.len()];
         let mut at = 0;
         for block in &fitted.point.blocks {
             let (a, b) = block.matrices();
@@ -291,20 +294,21 @@ impl Problem<'_> {
             }
             at += n;
         }
-        let slope = timing.slope_with_delay(input);
+        let slope = rows_of(&timing.slope_with_delay(input), self.block);
         rate.iter()
             .zip(slope)
             .map(|(r, s)| dt * (direct * s - r))
             .collect()
     }
 
-    /// The output of a fitted model for a record, initial state and constant included.
+    /// The output of a fitted model for a record at every sample, initial state and constant included.
     pub(crate) fn predict(&self, fitted: &Fitted, e: usize) -> Result<Vec<Vec<f64>>> {
         let timing = self.timing(fitted.point.delay);
         let bank = Bank::new(&fitted.point.blocks, timing)?;
-        let ring = self.ring(&bank, self.free_initial, false);
-        let x = bank.respond(&self.data.experiments[e].input, false).x;
-        let (local, own) = (self.local(e, &ring), self.own(e, x, &fitted.freedom, timing));
+        let every = self.of_all_samples();
+        let ring = every.ring(&bank, e, self.free_initial, false);
+        let x = bank.respond(&self.data.experiments[e].input, false, 1).x;
+        let (local, own) = (every.local(e, &ring), every.own(e, x, &fitted.freedom, timing));
         Ok((0..self.outputs())
             .map(|o| {
                 let mut y = combine(&own, |i| fitted.unknowns.own[o][i]);

@@ -71,9 +71,8 @@ impl Scan {
             .experiments
             .iter()
             .map(|experiment| {
-                let x = bank.respond(&experiment.input, false).x;
-                let columns: Vec<&Vec<f64>> = x.iter().collect();
-                matrix(&columns, problem.block)
+                let x = bank.respond(&experiment.input, false, problem.block).x;
+                matrix(&x.iter().collect::<Vec<_>>())
             })
             .collect();
         Ok(Self { blocks, columns })
@@ -192,7 +191,6 @@ fn places(problem: &Problem<'_>, rest: &Fitted, removed: Block, scan: &Scan) -> 
 fn gains(problem: &Problem<'_>, rest: &Fitted, scan: &Scan) -> Result<Vec<f64>> {
     let timing = problem.timing(rest.point.delay);
     let bank = Bank::new(&rest.point.blocks, timing)?;
-    let ring = problem.ring(&bank, problem.free_initial, true);
     // All coefficients of the numerator: candidates are compared, not adopted.
     let free = Freedom::new(&rest.point.blocks, order(&rest.point.blocks));
     let mut gains = vec![0.0; scan.blocks.len()];
@@ -200,14 +198,15 @@ fn gains(problem: &Problem<'_>, rest: &Fitted, scan: &Scan) -> Result<Vec<f64>> 
         let mut parts = Vec::new();
         let mut n_own = 0;
         for (e, experiment) in problem.data.experiments.iter().enumerate() {
-            let forced = bank.respond(&experiment.input, true);
+            let ring = problem.ring(&bank, e, problem.free_initial, true);
+            let forced = bank.respond(&experiment.input, true, problem.block);
             let local = problem.local(e, &ring);
             let shared = problem.shared(rest, e, o, &forced, &ring);
             let own = problem.own(e, forced.x, &free, timing);
             n_own = own.len() + shared.len();
             let model: Vec<&Vec<f64>> = local.iter().chain(&own).chain(&shared).collect();
-            let model = matrix(&model, problem.block);
-            let measured = matrix(&[&experiment.outputs[o]], problem.block);
+            let model = matrix(&model);
+            let measured = matrix(&[&problem.measured(e, o)]);
             let candidates = &scan.columns[e];
             let (rows, known) = (model.nrows(), model.ncols());
             let mut part = Mat::zeros(rows, known + candidates.ncols() + 1);

@@ -84,15 +84,20 @@ fn new_blocks(
     let timing = problem.timing(fitted.point.delay);
     let bank = Bank::new(blocks, timing)?;
     // Outputs have no delay, and between samples they are nearer to lines than to steps.
-    let output_bank = Bank::new(blocks, Timing::new(problem.data.dt(), Intersample::Foh, 0.0))?;
+    let output_timing = Timing::new(problem.data.dt(), Intersample::Foh, 0.0);
+    let output_bank = if output_timing == timing {
+        bank.clone()
+    } else {
+        Bank::new(blocks, output_timing)?
+    };
     let freedom = Freedom::new(blocks, problem.zeros);
     let offsets = problem.data.experiments.iter().any(|e| e.estimate_offset);
-    // A constant in y passes the filters as a constant and free motions.
-    let ring = problem.ring(&bank, problem.free_initial || offsets, false);
     let mut records = vec![Vec::new(); problem.outputs()];
     let mut n_own = 0;
     for (e, experiment) in problem.data.experiments.iter().enumerate() {
-        let x = bank.respond(&experiment.input, false).x;
+        // A constant in y passes the filters as a constant and free motions.
+        let ring = problem.ring(&bank, e, problem.free_initial || offsets, false);
+        let x = bank.respond(&experiment.input, false, problem.block).x;
         let mut columns = Columns {
             local: problem.local(e, &ring),
             own: problem.own(e, x, &freedom, timing),
@@ -106,15 +111,17 @@ fn new_blocks(
         };
         for (o, of_output) in records.iter_mut().enumerate() {
             columns.shared = match predicted.get(o) {
-                Some(y) => output_bank.respond(y, false).x,
+                Some(y) => output_bank.respond(y, false, problem.block).x,
                 None => Vec::new(),
             };
-            columns
-                .shared
-                .extend(output_bank.respond(&experiment.outputs[o], false).x);
+            columns.shared.extend(
+                output_bank
+                    .respond(&experiment.outputs[o], false, problem.block)
+                    .x,
+            );
             of_output.push(Record {
                 local: columns.local.len(),
-                matrix: columns.matrix(&[&experiment.outputs[o]], problem.block),
+                matrix: columns.matrix(&[&problem.measured(e, o)]),
                 factor: problem.factors[o][e],
             });
         }

@@ -144,7 +144,7 @@ impl Uncertainty {
         let spare = (samples - unknowns) as f64 / samples as f64;
 
         let bank = Bank::new(&fitted.point.blocks, problem.timing(fitted.point.delay))?;
-        let ring = problem.ring(&bank, problem.free_initial, true);
+        let every = problem.of_all_samples();
         let mut triangles = Vec::new();
         // J'SJ for white and for coloured residuals.
         let mut meat: [Mat<f64>; 2] = std::array::from_fn(|_| Mat::zeros(unknowns, unknowns));
@@ -152,16 +152,17 @@ impl Uncertainty {
         let mut at_local = n_shared + n_outputs * n_own;
         for (o, sd) in residual_sd.iter_mut().enumerate() {
             for (e, experiment) in problem.data.experiments.iter().enumerate() {
-                let forced = bank.respond(&experiment.input, true);
+                let ring = every.ring(&bank, e, problem.free_initial, true);
+                let forced = bank.respond(&experiment.input, true, 1);
                 let columns = Columns {
-                    local: problem.local(e, &ring),
-                    own: problem.own(
+                    local: every.local(e, &ring),
+                    own: every.own(
                         e,
                         forced.x.clone(),
                         &fitted.freedom,
                         problem.timing(fitted.point.delay),
                     ),
-                    shared: problem.shared(fitted, e, o, &forced, &ring),
+                    shared: every.shared(fitted, e, o, &forced, &ring),
                 };
                 let residual: Vec<f64> = experiment.outputs[o]
                     .iter()
@@ -176,7 +177,7 @@ impl Uncertainty {
                     .chain(0..n_shared)
                     .collect();
                 at_local += columns.local.len();
-                let mut j = columns.matrix(&[], 1);
+                let mut j = columns.matrix(&[]);
                 j *= albatross_numerics::faer::Scale(factor);
                 let r = triangle(j.clone());
                 let white = r.transpose() * &r * albatross_numerics::faer::Scale(variance * factor * factor);

@@ -127,30 +127,40 @@ struct Results {
 
 impl Results {
     fn compute(root: &Path, search: bool) -> Result<Self, Error> {
+        let start = Instant::now();
         let mut study = Study::run(root)?;
-        let since = Instant::now();
-        let solved = solved::run(root, &study)?;
-        study.measured.stage(
-            "the case from deck and geometry alone, twice, and lift between strips",
-            since,
-        );
-        let since = Instant::now();
-        let account = account::run(&study, &solved)?;
-        study
-            .measured
-            .stage("experiments on the difference to the reference", since);
         let (kept, kept_files) = if search {
             search::run(root, &study)?
         } else {
             Kept::read(&root.join(KEPT), &study)?
         };
         let stale = kept.stale(root)?;
-        let since = Instant::now();
-        let identification = Identification::run(&study, kept)?;
-        study.measured.stage(
-            "identification of four transfer functions at two orders, two threads",
-            since,
-        );
+        // Neither needs the other's results: side by side.
+        let (identified, compared) = std::thread::scope(|scope| {
+            let identified = scope.spawn(|| timed(|| Identification::run(&study, kept)));
+            let compared = timed(|| solved::run(root, &study)).and_then(|(solved, first)| {
+                let (account, second) = timed(|| account::run(&study, &solved))?;
+                Ok((solved, first, account, second))
+            });
+            let panicked = || Err(Error::Failed("the identification panicked".into()));
+            (identified.join().unwrap_or_else(|_| panicked()), compared)
+        });
+        let (solved, solving, account, accounting) = compared?;
+        let (identification, identifying) = identified?;
+        for (name, seconds) in [
+            (
+                "the case from deck and geometry alone, twice, and lift between strips",
+                solving,
+            ),
+            ("experiments on the difference to the reference", accounting),
+            (
+                "beside these: identification of four transfer functions at two orders",
+                identifying,
+            ),
+        ] {
+            study.measured.stage_of(name, seconds);
+        }
+        study.measured.all = start.elapsed().as_secs_f64();
         let mut tables: Vec<Named> = vec![Named::new("inputs", page::inputs(root, &study)?)];
         tables.extend(tables::all(&study)?);
         tables.extend(fits::all(&study)?);
@@ -188,6 +198,13 @@ impl Results {
         }
         Ok(())
     }
+}
+
+/// A result with the wall time that it took \[s\].
+fn timed<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<(T, f64), Error> {
+    let since = Instant::now();
+    let result = work()?;
+    Ok((result, since.elapsed().as_secs_f64()))
 }
 
 fn pretty(value: &serde_json::Value) -> Result<String, Error> {

@@ -73,11 +73,18 @@ pub(crate) struct Measured {
     pub(crate) states: usize,
     /// Stages in order: name and wall time \[s\].
     pub(crate) stages: Vec<(String, f64)>,
+    /// Wall time of all of them, some of which run side by side \[s\].
+    pub(crate) all: f64,
 }
 
 impl Measured {
     pub(crate) fn stage(&mut self, name: impl Into<String>, since: Instant) {
-        let (name, seconds) = (name.into(), since.elapsed().as_secs_f64());
+        self.stage_of(name, since.elapsed().as_secs_f64());
+    }
+
+    /// A stage that took some seconds of wall time.
+    pub(crate) fn stage_of(&mut self, name: impl Into<String>, seconds: f64) {
+        let name = name.into();
         eprintln!("  {seconds:6.2} s  {name}");
         self.stages.push((name, seconds));
     }

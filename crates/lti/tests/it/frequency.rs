@@ -214,3 +214,39 @@ proptest! {
         }
     }
 }
+
+/// Batches of frequencies against the dense factors at each, the amplitudes put in as integrals of their rates: grids
+/// longer and shorter than a batch, frequency zero, where the integrals are not, and the pole of a lag.
+#[test]
+fn val_batches_of_frequencies_equal_the_dense_solve() {
+    for seed in [3, 8] {
+        let system = aeroelastic(6, 80, seed);
+        let mut grid = vec![0.0];
+        grid.extend(logspace(1e-3, 300.0, 69));
+        for omega in [&grid[..], &grid[5..9]] {
+            let reduced = FrequencySolver::new(&system, Method::LagReduced)
+                .unwrap()
+                .response(omega)
+                .unwrap();
+            let dense = FrequencySolver::new(&system, Method::Lu)
+                .unwrap()
+                .response(omega)
+                .unwrap();
+            assert_eq!(reduced.values.len(), omega.len());
+            for (w, (r, d)) in omega.iter().zip(reduced.values.iter().zip(&dense.values)) {
+                let difference = (r - d).norm_max();
+                assert!(
+                    difference < 1e-10 * d.norm_max(),
+                    "seed {seed}, {w} rad/s: {difference:e}"
+                );
+            }
+        }
+        let solver = FrequencySolver::new(&system, Method::LagReduced).unwrap();
+        let pole = C64::new(-2.0, 0.0);
+        assert!(matches!(
+            solver.evaluate(pole),
+            Err(Error::PoleAtFrequency { .. })
+        ));
+        assert!(solver.response(&[1.0, f64::NAN]).is_err());
+    }
+}

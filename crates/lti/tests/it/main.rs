@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops where it fails")]
 
 mod frequency;
+mod lags;
 mod models;
 mod modes;
 mod simulation;

@@ -1,5 +1,5 @@
 use albatross_lti::simulation::{Discrete, discretise};
-use albatross_lti::{Error, Hold, StateSpace, simulate, simulate_rk4};
+use albatross_lti::{Error, Hold, OutputSimulator, StateSpace, simulate, simulate_rk4};
 use albatross_numerics::Mat;
 use albatross_numerics::integrate::Stage;
 use proptest::prelude::*;
@@ -175,4 +175,40 @@ fn val_two_inputs_against_scipy() {
     let held = run(Hold::Zero).output("y1").unwrap();
     assert!((held[4] - 0.325_362_338_846_781_6).abs() < 1e-14);
     assert!((held[8] - 0.351_536_870_781_019_1).abs() < 1e-14);
+}
+
+/// Strides of 32 steps against step by step: for both holds, records shorter than a stride, of whole strides and not,
+/// several inputs and outputs, in mixed units.
+#[test]
+fn val_strides_are_the_steps() {
+    let system = aeroelastic(3, 8, 5);
+    for hold in [Hold::Zero, Hold::First] {
+        let simulator = OutputSimulator::new(&system, 0.01, hold).unwrap();
+        for samples in [1, 20, 64, 107] {
+            let inputs: Vec<Vec<f64>> = (0..samples)
+                .map(|k| vec![(0.3 * k as f64).sin(), if k % 17 < 8 { 1.0 } else { -0.5 }])
+                .collect();
+            let steps = simulate(&system, 0.01, &inputs, None, hold).unwrap();
+            let strides = simulator.outputs(&inputs).unwrap();
+            assert_eq!(strides.len(), 3);
+            for (j, series) in strides.iter().enumerate() {
+                assert_eq!(series.len(), samples);
+                let expected: Vec<f64> = (0..samples).map(|k| steps.outputs.row(k)[j]).collect();
+                let largest = expected.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                for (value, expected) in series.iter().zip(&expected) {
+                    assert!((value - expected).abs() <= 1e-11 * largest);
+                }
+            }
+        }
+    }
+    let simulator = OutputSimulator::new(&system, 0.01, Hold::First).unwrap();
+    assert!(matches!(
+        simulator.outputs(&[vec![0.0, 0.0], vec![0.0]]),
+        Err(Error::InputWidth {
+            sample: 1,
+            expected: 2,
+            found: 1
+        })
+    ));
+    assert!(OutputSimulator::new(&system, 0.0, Hold::First).is_err());
 }

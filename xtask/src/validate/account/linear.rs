@@ -7,7 +7,7 @@ use crate::validate::study::{STEP, Variant, fit};
 use albatross::Model;
 use albatross::analysis::Trimmed;
 use albatross::flight::Quantity;
-use albatross::lti::{Hold, Mode, StateSpace, simulate};
+use albatross::lti::{Hold, Mode, OutputSimulator, StateSpace};
 use albatross::numerics::{C64, Mat, eigen};
 use albatross::sysid::from_trim;
 
@@ -166,23 +166,21 @@ impl LinearModel {
     /// Fits to the reference's histories, driven by its elevator.
     pub(super) fn fits(&self, reference: &Reference) -> Result<Vec<Vec<f64>>, Error> {
         let thinned = |series: &[f64]| -> Vec<f64> { series.iter().step_by(EVERY).copied().collect() };
+        let simulator = OutputSimulator::new(&self.system, EVERY as f64 * STEP, Hold::First)?;
         let mut all = Vec::new();
         for history in &reference.histories {
             let deflection = from_trim(&thinned(&history.elevator_deg));
             let inputs: Vec<Vec<f64>> = deflection.iter().map(|v| vec![v.to_radians()]).collect();
-            let flown = simulate(&self.system, EVERY as f64 * STEP, &inputs, None, Hold::First)?;
+            let flown = simulator.outputs(&inputs)?;
             let fits = QUANTITIES
                 .iter()
                 .zip(&history.series)
-                .map(|(quantity, series)| {
-                    let own: Vec<f64> = flown
-                        .output(quantity.sensor)?
-                        .iter()
-                        .map(|v| v * quantity.scale)
-                        .collect();
-                    Ok(fit(&thinned(series), &own))
+                .zip(&flown)
+                .map(|((quantity, series), own)| {
+                    let own: Vec<f64> = own.iter().map(|v| v * quantity.scale).collect();
+                    fit(&thinned(series), &own)
                 })
-                .collect::<Result<_, Error>>()?;
+                .collect();
             all.push(fits);
         }
         Ok(all)
