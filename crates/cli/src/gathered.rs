@@ -36,15 +36,25 @@ impl Gathered {
             parent
         };
         let fail = |source| fail(place, source);
-        let directory = tempfile::Builder::new()
-            .prefix(TEMPORARY)
-            .tempdir_in(place)
-            .map_err(fail)?;
-        let lock = lock(directory.path()).map_err(fail)?;
-        Ok(Self {
-            _lock: lock,
-            directory,
-        })
+        let mut attempts = 0;
+        loop {
+            let directory = tempfile::Builder::new()
+                .prefix(TEMPORARY)
+                .tempdir_in(place)
+                .map_err(fail)?;
+            attempts += 1;
+            match lock(directory.path()) {
+                Ok(lock) => {
+                    return Ok(Self {
+                        _lock: lock,
+                        directory,
+                    });
+                }
+                // Another command has removed it while it was empty.
+                Err(error) if error.kind() == io::ErrorKind::NotFound && attempts < 5 => {}
+                Err(error) => return Err(fail(error)),
+            }
+        }
     }
 
     /// Where the files are gathered.
@@ -87,6 +97,12 @@ impl Gathered {
     }
 }
 
+impl Drop for Gathered {
+    fn drop(&mut self) {
+        clear(self.path());
+    }
+}
+
 fn fail(path: &Path, source: io::Error) -> Failure {
     Failure::Write {
         path: path.display().to_string(),
@@ -105,8 +121,18 @@ fn lock(directory: &Path) -> io::Result<Option<File>> {
     Ok(Some(file))
 }
 
-/// Removes the temporary directories in `place` whose owners are dead: those with a lock that nobody holds. What cannot be
-/// removed is left to the user; it disturbs nothing.
+/// Removes what is in a temporary directory but its lock: whoever is killed here leaves what the next one recognises.
+fn clear(directory: &Path) {
+    for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
+        if entry.file_name() != LOCK {
+            // What cannot be removed stays for the removal of the directory to fail on.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Removes the temporary directories in `place` whose owners are dead: those with a lock that nobody holds, and empty ones.
+/// What cannot be removed is left to the user; it disturbs nothing.
 fn remove_abandoned(place: &Path) {
     let Ok(entries) = fs::read_dir(place) else {
         return;
@@ -116,12 +142,17 @@ fn remove_abandoned(place: &Path) {
         name.starts_with(TEMPORARY) && path.is_dir() && !path.is_symlink()
     };
     for directory in entries.flatten().map(|e| e.path()).filter(temporary) {
-        let Ok(file) = File::open(directory.join(LOCK)) else {
-            continue;
-        };
-        if file.try_lock().is_ok() {
+        match File::open(directory.join(LOCK)) {
             // Another command may be at the same: what is gone already is as good.
-            let _ = fs::remove_dir_all(&directory);
+            Ok(file) if file.try_lock().is_ok() => {
+                clear(&directory);
+                let _ = fs::remove_dir_all(&directory);
+            }
+            Ok(_) => {}
+            // Fails where something is in it.
+            Err(_) => {
+                let _ = fs::remove_dir(&directory);
+            }
         }
     }
 }

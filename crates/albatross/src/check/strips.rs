@@ -192,8 +192,8 @@ fn one_axis(
         };
         let at = along(strip.y_le, z_le);
         let segments = || steps().zip(points.iter().zip(points.iter().skip(1)));
-        let Some(((from, to), (a, b))) = segments().find(|((_, to), _)| at <= **to).or(segments().last())
-        else {
+        let here = segments().find(|((_, to), _)| at <= **to);
+        let Some(((from, to), (a, b))) = here.or_else(|| segments().next_back()) else {
             continue;
         };
         let share = (at - from) / (to - from);

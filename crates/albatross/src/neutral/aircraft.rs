@@ -236,7 +236,7 @@ impl NeutralAircraft {
             file: file.to_owned(),
             source,
         };
-        let column = |values: &[f64]| Mat::from_fn(n, 1, |j, _| values[j]);
+        let column = |values: &[f64]| Mat::from_fn(n, 1, |j, _| values.get(j).copied().unwrap_or(f64::NAN));
         let coupling = |lift: Mat<f64>| {
             rigid_to_elastic(&strips, &shapes, &StripLoads::from_lift(lift), &self.reference())
                 .map_err(strip_error)

@@ -64,13 +64,15 @@ pub(crate) fn read_files(
     let mut experiments = Vec::new();
     let mut trim = Vec::new();
     let mut signals: Option<(Signal, Vec<Signal>)> = None;
+    let mut reference = None;
     for file in files {
+        let reference = *reference.get_or_insert(file);
         let (mut experiment, input, outputs) = read_record(file, &columns)?;
         trim.push(remove_trim(&mut experiment, sampling.detrend.into()));
         experiments.push(experiment);
         match &signals {
             None => signals = Some((input, outputs)),
-            Some(first) => same_units(&files[0], first, file, &(input, outputs))?,
+            Some(first) => same_units(reference, first, file, &(input, outputs))?,
         }
     }
     let (input, outputs) = signals.ok_or_else(|| Failure::Other("no records are given".into()))?;
