@@ -150,7 +150,7 @@ pub fn fem(bytes: &[u8]) -> bool {
     let Ok(model) = FemModel::assemble(&deck, &options) else {
         return false;
     };
-    drop((model.properties(), model.weight()));
+    let _ = (model.properties(), model.weight());
     if model.freedoms().count() <= SOLVED {
         if let Ok(modes) = model.modes(&ModesOptions::of_deck(&deck, None)) {
             drop(model.effective_masses(&modes, [0.0; 3]));
@@ -198,8 +198,8 @@ fn solve_lattice(geometry: &Geometry, file: Option<&str>) -> bool {
     if let Ok(solution) = solver.solve(&Condition::at_alpha_deg(2.0, &lattice)) {
         drop(solution.stability_derivatives("fuzz").to_text());
         drop(solution.strip_forces().to_text());
-        drop((solution.body_derivatives("fuzz"), solution.surface_forces()));
-        drop((solution.body_forces(), solution.element_forces()));
+        let _ = (solution.body_derivatives("fuzz"), solution.surface_forces());
+        let _ = (solution.body_forces(), solution.element_forces());
         drop((
             solution.shear_moments(),
             solution.strip_loads(),
