@@ -46,7 +46,9 @@ fn val_roots_are_eigenvalues_of_the_whole() {
 #[test]
 fn val_following_is_that_of_the_dense_tracker() {
     let mut harder = 0;
-    for seed in 1..9 {
+    // A strict tolerance makes steps small.
+    let cases = (1..9).flat_map(|seed| [(seed, 0.25), (seed, 1e-4)]);
+    for (seed, tolerance) in cases {
         let (a1, indices) = coupled(5, 40, seed);
         let a0 = uncoupled(&a1, 10);
         let core: Vec<usize> = (0..10).collect();
@@ -55,7 +57,10 @@ fn val_following_is_that_of_the_dense_tracker() {
             .into_iter()
             .filter(|v| v.im > 0.0)
             .collect();
-        let options = TrackOptions::default();
+        let options = TrackOptions {
+            tolerance,
+            ..TrackOptions::default()
+        };
         let dense = track(a0.as_ref(), a1.as_ref(), &chosen, options);
         let (from, to) = (
             LagForm::new(a0.as_ref(), &indices).unwrap(),
