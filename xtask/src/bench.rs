@@ -37,7 +37,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         }
         cargo(&arguments, &[])?;
     }
-    let results = collect(&target(&root).join("criterion"), since)?;
+    let results = collect(&workspace::target(&root).join("criterion"), since)?;
     if results.is_empty() {
         return Err(Error::Failed(
             "no results; run without --collect-only, or with another --filter".into(),
@@ -52,11 +52,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Error> {
         println!("written to {}", path.display());
     }
     Ok(())
-}
-
-/// Where cargo puts its results.
-fn target(root: &Path) -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }
 
 /// What criterion measured of one function.

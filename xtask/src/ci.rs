@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: every check that a change must pass, in order, with a summary.
 
 use crate::error::Error;
-use crate::{examples, tidy, validate, workspace};
+use crate::{examples, first_hour, tidy, validate, workspace};
 use std::process::Command;
 
 /// The tests, as the README names them.
@@ -29,6 +29,9 @@ const STEPS: [Step; 4] = [
     ),
 ];
 
+/// Licences, sources and duplicates of third-party crates, by `deny.toml`.
+const DENY: [&str; 5] = ["deny", "check", "licenses", "bans", "sources"];
+
 /// Runs all checks, also after one has failed.
 pub(crate) fn run() -> Result<(), Error> {
     let mut outcomes: Vec<(&str, Result<(), Error>)> = Vec::new();
@@ -36,6 +39,15 @@ pub(crate) fn run() -> Result<(), Error> {
     for (name, arguments, environment) in STEPS {
         outcomes.push((name, cargo(arguments, environment)));
     }
+    if deny_is_installed() {
+        outcomes.push(("dependencies", cargo(&DENY, &[])));
+    } else {
+        eprintln!("SKIPPED dependencies: cargo deny is not installed (cargo install cargo-deny --locked)");
+    }
+    outcomes.push((
+        "first-hour --check",
+        first_hour::run(&first_hour::Options::check()),
+    ));
     outcomes.push(("examples --check", examples::run(&examples::Options::check())));
     outcomes.push(("validate --check", validate::run(&validate::Options::check())));
     println!();
@@ -49,6 +61,14 @@ pub(crate) fn run() -> Result<(), Error> {
         0 => Ok(()),
         n => Err(Error::Failed(format!("{n} of {} checks failed", outcomes.len()))),
     }
+}
+
+/// `cargo deny` is a program of its own: the check is left out, aloud, where it is missing.
+fn deny_is_installed() -> bool {
+    Command::new("cargo")
+        .args(["deny", "--version"])
+        .output()
+        .is_ok_and(|output| output.status.success())
 }
 
 /// Runs cargo in the workspace and waits for it.

@@ -10,17 +10,22 @@ pub(crate) fn root() -> PathBuf {
     manifest.parent().unwrap_or(manifest).to_path_buf()
 }
 
+/// Where cargo builds.
+pub(crate) fn target(root: &Path) -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
+}
+
 /// Reads a text file.
 pub(crate) fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(Error::file(path))
 }
 
 /// Writes a file under a temporary name beside its place, then renames it: a reader sees the old file or the new.
-pub(crate) fn write_whole(path: &Path, text: &str) -> Result<(), Error> {
+pub(crate) fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     let directory = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(directory).map_err(Error::file(directory))?;
     let mut file = tempfile::NamedTempFile::new_in(directory).map_err(Error::file(path))?;
-    file.write_all(text.as_bytes()).map_err(Error::file(path))?;
+    file.write_all(content.as_ref()).map_err(Error::file(path))?;
     // Temporary files are for their owner alone; documents are for everybody.
     #[cfg(unix)]
     {

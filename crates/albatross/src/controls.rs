@@ -4,6 +4,8 @@
 //! acts. On the strips between two sections that declare the control, thin-airfoil theory gives the lift as a share
 //! `tau` of the strip's own slope and the moment about the quarter chord; one factor a control then scales them so that
 //! lift, side force and rolling moment meet the rigid derivatives in the least-squares sense.
+//!
+//! Equations: THEORY (16), (16a).
 
 use albatross_avl::geometry::{Geometry, Surface};
 use albatross_flight::aerodynamics::RigidAerodynamics;
@@ -51,9 +53,12 @@ pub fn control_loads(
             at(&rigid.roll.controls) * reference.area * reference.span / (0.5 * reference.span),
         ];
         let mut raw = [0.0; 3];
+        // The size that the loads would have at 2 pi, to tell rounding from lift.
+        let mut whole = 0.0;
         for (hinge, strip) in hinges.iter().zip(strips) {
             let Some(hinge) = hinge else { continue };
             let force = hinge.gain * flap_effectiveness(hinge.x).0 * strip.cl_alpha * strip.area();
+            whole += (hinge.gain * flap_effectiveness(hinge.x).0 * TAU * strip.area()).abs();
             let (sin, cos) = strip.dihedral_rad.sin_cos();
             raw[0] += force * cos;
             raw[1] -= force * sin;
@@ -61,7 +66,7 @@ pub fn control_loads(
         }
         let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let size = dot(raw, raw);
-        if size == 0.0 {
+        if size.sqrt() <= 1e-9 * whole {
             notes.push(format!(
                 "control `{name}` acts on no strip: it moves the rigid aircraft only"
             ));

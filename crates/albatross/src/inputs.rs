@@ -87,13 +87,24 @@ impl Inputs {
             Some(files) => {
                 let mut read = read_aerodynamics(&case.aerodynamics.geometry, files, &directory, &mut notes)?;
                 if case.aerodynamics.lift_slopes == LiftSlopes::Lattice {
-                    let solved = solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?;
-                    same_strips(&read.strips[0], &solved.strips[0])?;
-                    read.slopes_between = solved.slopes_between;
+                    let solved = solve_aerodynamics(&case, &directory, &deck, &results)?;
+                    same_strips(&read.strips[0], &solved.aerodynamics.strips[0])?;
+                    read.slopes_between = solved.aerodynamics.slopes_between;
+                    notes.extend(solved.of_lattice);
+                    notes.push(format!("lift slopes between strips from {}", solved.note));
                 }
                 read
             }
-            None => solve_aerodynamics(&case, &directory, &deck, &results, &mut notes)?,
+            None => {
+                let solved = solve_aerodynamics(&case, &directory, &deck, &results)?;
+                notes.extend(solved.of_geometry.into_iter().chain(solved.of_lattice));
+                let [low, high] = solved.aerodynamics.strip_alphas_deg;
+                notes.push(format!(
+                    "aerodynamics from {}; strips at {low} and {high} deg",
+                    solved.note
+                ));
+                solved.aerodynamics
+            }
         };
 
         let corrections = case.corrections.as_ref();
@@ -173,26 +184,35 @@ fn read_aerodynamics(
     })
 }
 
+/// Aerodynamics that were computed, and remarks.
+struct Solved {
+    aerodynamics: Aerodynamics,
+    /// Remarks of the geometry's reader.
+    of_geometry: Vec<String>,
+    /// Remarks of the lattice.
+    of_lattice: Vec<String>,
+    /// On what they were computed.
+    note: String,
+}
+
 /// AVL's results computed: the lattice is trimmed in level flight about the centre of gravity that flies.
 fn solve_aerodynamics(
     case: &Case,
     directory: &Path,
     deck: &Deck,
     results: &ModalResults,
-    notes: &mut Vec<String>,
-) -> Result<Aerodynamics, Error> {
+) -> Result<Solved, Error> {
     let file = directory.join(&case.aerodynamics.geometry);
-    let (mut geometry, remarks) = avl(&file, Geometry::parse)?;
-    notes.extend(remarks.iter().map(ToString::to_string));
+    let (mut geometry, of_geometry) = avl(&file, Geometry::parse)?;
     let mass = mass_that_flies(&case.basis(deck, results)?)?;
     [geometry.x_ref, geometry.y_ref, geometry.z_ref] = mass.cg;
-    let (lattice, remarks) = lattice::lattice_of(&geometry, &file)?;
-    notes.extend(remarks);
+    let (lattice, of_lattice) = lattice::lattice_of(&geometry, &file)?;
     let choice = case.aerodynamics.lattice.clone().unwrap_or_default();
     let flight = &case.flight;
     let pressure = 0.5 * atmosphere::standard(flight.altitude).density * flight.speed().powi(2);
     let level = Level {
-        mach: choice.mach.unwrap_or(if geometry.mach > 0.0 {
+        // A negative Mach number is refused by the lattice, not replaced.
+        mach: choice.mach.unwrap_or(if geometry.mach != 0.0 {
             geometry.mach
         } else {
             flight.mach()
@@ -203,13 +223,17 @@ fn solve_aerodynamics(
     };
     let with_slopes = case.aerodynamics.lift_slopes == LiftSlopes::Lattice;
     let solved = lattice::solve(&lattice, &choice, &level, with_slopes, &file)?;
-    notes.push(solved.note);
-    Ok(Aerodynamics {
-        geometry,
-        derivatives: solved.derivatives,
-        strips: solved.strips,
-        strip_alphas_deg: choice.alphas_deg,
-        slopes_between: solved.slopes,
+    Ok(Solved {
+        aerodynamics: Aerodynamics {
+            geometry,
+            derivatives: solved.derivatives,
+            strips: solved.strips,
+            strip_alphas_deg: choice.alphas_deg,
+            slopes_between: solved.slopes,
+        },
+        of_geometry: of_geometry.iter().map(ToString::to_string).collect(),
+        of_lattice,
+        note: solved.note,
     })
 }
 

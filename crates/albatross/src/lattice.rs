@@ -105,7 +105,7 @@ pub struct LatticeResults {
     /// `d(c c_l) / d(local incidence)` of every strip (rows) by the incidence of every strip (columns) \[m/rad\], in the
     /// trimmed flow.
     pub slopes: Option<Mat<f64>>,
-    /// What was computed.
+    /// On what: vortices, Mach number, trim.
     pub note: String,
 }
 
@@ -146,8 +146,7 @@ pub fn solve(
     let strips = [at(low)?, at(high)?];
     let run = &derivatives.run;
     let note = format!(
-        "aerodynamics from a lattice of {} vortices at Mach {}: trimmed at CL {:.4} with alpha {:.4} deg; strips at {low} \
-         and {high} deg",
+        "a lattice of {} vortices at Mach {:.6}, trimmed at CL {:.4} with alpha {:.4} deg",
         run.n_vortices, level.mach, run.c_lift, run.alpha_deg
     );
     Ok(LatticeResults {

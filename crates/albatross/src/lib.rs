@@ -33,20 +33,28 @@
 //! # Ok::<(), albatross::Error>(())
 //! ```
 
+// Modules that read do not index or cut by position; for the others see the invariants of docs/ARCHITECTURE.md.
 pub mod analysis;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod case;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod check;
 pub mod controls;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod inputs;
 pub mod lattice;
+pub mod linear;
 pub mod mode_table;
 pub mod model;
 pub mod modes;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod neutral;
 pub mod root_locus;
 pub mod shapes;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod sources;
 pub mod strips;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod tables;
 
 mod error;

@@ -2,23 +2,40 @@
 
 use crate::inputs::Inputs;
 use crate::model::Model;
+use albatross_modal::ModalBasis;
 use albatross_nastran::Deck;
 use albatross_report::html::{Shape, Shapes};
 use std::collections::BTreeMap;
+
+/// The modes of a structure, its one-dimensional and rigid elements as lines.
+pub fn of_structure(deck: &Deck, basis: &ModalBasis) -> Shapes {
+    let grids = &basis.grids;
+    let place: BTreeMap<u32, usize> = grids.iter().enumerate().map(|(i, g)| (g.id, i)).collect();
+    let lines = connections(deck)
+        .into_iter()
+        .filter_map(|[a, b]| Some([*place.get(&a)?, *place.get(&b)?]))
+        .collect();
+    let shapes = basis.modes.iter().enumerate();
+    let shapes = shapes.map(|(k, mode)| Shape {
+        name: format!("{}: {:.3} Hz", k + 1, mode.frequency_hz),
+        displacement: mode.shape.iter().map(|&[x, y, z, ..]| [x, y, z]).collect(),
+    });
+    Shapes {
+        title: "Mode shapes".into(),
+        points: grids.iter().map(|g| g.position).collect(),
+        lines,
+        faces: Vec::new(),
+        shapes: shapes.collect(),
+    }
+}
 
 /// The structural modes of a model with its one-dimensional elements as lines and its strips as quadrilaterals.
 ///
 /// A strip turns about its load reference axis and keeps its chord straight, as in the model: a surface that takes no part
 /// in the strip theory stands still. The quadrilateral follows the sweep of the quarter chord.
 pub fn mode_shapes(inputs: &Inputs, model: &Model) -> Shapes {
-    let grids = &model.basis.grids;
-    let place: BTreeMap<u32, usize> = grids.iter().enumerate().map(|(i, g)| (g.id, i)).collect();
-    let lines = connections(&inputs.deck)
-        .into_iter()
-        .filter_map(|[a, b]| Some([*place.get(&a)?, *place.get(&b)?]))
-        .collect();
-
-    let mut points: Vec<[f64; 3]> = grids.iter().map(|g| g.position).collect();
+    let mut shapes = of_structure(&inputs.deck, &model.basis);
+    let points = &mut shapes.points;
     let first_corner = points.len();
     let set = &model.strips;
     for record in &set.records {
@@ -40,39 +57,23 @@ pub fn mode_shapes(inputs: &Inputs, model: &Model) -> Shapes {
             corner(-1.0, x + record.chord),
         ]);
     }
-    let faces = (0..set.records.len())
+    shapes.faces = (0..set.records.len())
         .map(|j| std::array::from_fn(|corner| first_corner + 4 * j + corner))
         .collect();
 
     let form = inputs.case.aerodynamics.dihedral;
-    let shapes = model
-        .basis
-        .modes
-        .iter()
-        .enumerate()
-        .map(|(k, mode)| {
-            let mut displacement: Vec<[f64; 3]> = mode.shape.iter().map(|&[x, y, z, ..]| [x, y, z]).collect();
-            for (j, strip) in set.strips.iter().enumerate() {
-                let (vertical, lateral) = form.components(strip);
-                let (phi, gamma) = (set.shapes.phi[(j, k)], set.shapes.gamma[(j, k)]);
-                displacement.extend(points.iter().skip(first_corner + 4 * j).take(4).map(|corner| {
-                    let normal = phi - (corner[0] - strip.x_lra) * gamma;
-                    [0.0, -lateral * normal, vertical * normal]
-                }));
-            }
-            Shape {
-                name: format!("{}: {:.3} Hz", k + 1, mode.frequency_hz),
-                displacement,
-            }
-        })
-        .collect();
-    Shapes {
-        title: "Mode shapes".into(),
-        points,
-        lines,
-        faces,
-        shapes,
+    for (k, shape) in shapes.shapes.iter_mut().enumerate() {
+        for (j, strip) in set.strips.iter().enumerate() {
+            let (vertical, lateral) = form.components(strip);
+            let (phi, gamma) = (set.shapes.phi[(j, k)], set.shapes.gamma[(j, k)]);
+            let corners = points.iter().skip(first_corner + 4 * j).take(4);
+            shape.displacement.extend(corners.map(|corner| {
+                let normal = phi - (corner[0] - strip.x_lra) * gamma;
+                [0.0, -lateral * normal, vertical * normal]
+            }));
+        }
     }
+    shapes
 }
 
 /// Sweep moves the outer edge aft, which is the right one on the right and on a fin.

@@ -66,6 +66,7 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
             places.push(place);
         }
     }
+    refuse_coincident(&records, source)?;
     let computed: Vec<f64> = records.iter().map(|r| r.cl_alpha).collect();
     if variant.corrections
         && let Some(table) = &inputs.slope_table
@@ -100,6 +101,35 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
         lra,
         notes,
     })
+}
+
+/// Refuses two strips in one place: their lift would count twice, and no case means that.
+fn refuse_coincident(records: &[StripRecord], source: &str) -> Result<(), Error> {
+    for (j, second) in records.iter().enumerate() {
+        let near =
+            |a: [f64; 3], b: [f64; 3], size: f64| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-6 * size);
+        let same = |first: &&StripRecord| {
+            near(first.leading_edge, second.leading_edge, second.chord)
+                && (first.chord - second.chord).abs() <= 1e-6 * second.chord
+                && (first.dihedral_rad - second.dihedral_rad).abs() <= 1e-6
+        };
+        let Some(first) = records.iter().take(j).find(same) else {
+            continue;
+        };
+        let [x, y, z] = second.leading_edge;
+        return Err(Error::Mismatch {
+            what: format!("strips of {source}"),
+            found: format!(
+                "strip {} of `{}` and strip {} of `{}` in one place, leading edge at {x}, {y}, {z} m",
+                first.index,
+                first.surface.trim(),
+                second.index,
+                second.surface.trim()
+            ),
+            expected: "one strip a place: remove the surface that is there twice".into(),
+        });
+    }
+    Ok(())
 }
 
 /// Influence of the strips on each other; rows follow the correction of the strip's lift slope.

@@ -141,15 +141,18 @@ pub fn slope_table(text: &str, file: &str, provenance: &str) -> Result<SlopeTabl
     } else {
         None
     };
+    let places = y.iter().zip(&sides).map(|(y, side)| y * side);
     let rows = columns
         .texts("surface")?
         .into_iter()
+        .zip(places)
+        .zip(slopes)
         .enumerate()
-        .map(|(i, (_, surface))| SlopeRow {
+        .map(|(i, (((_, surface), y), cl_alpha))| SlopeRow {
             surface: surface.to_owned(),
-            y: y[i] * sides[i],
-            cl_alpha: slopes[i],
-            cl0: cl0.as_ref().map(|c| c[i]),
+            y,
+            cl_alpha,
+            cl0: cl0.as_ref().and_then(|c| c.get(i).copied()),
         })
         .collect();
     Ok(SlopeTable {

@@ -144,6 +144,9 @@ pub(crate) struct ModesOptions {
     /// Elastic modes wanted of --results; all by default.
     #[arg(long, value_name = "N")]
     pub(crate) modes: Option<usize>,
+    /// Draw the shapes.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
     /// JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,

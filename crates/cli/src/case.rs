@@ -1,13 +1,14 @@
 //! The stages of a case, one command each.
 
 use crate::args::{BodeOptions, CaseOptions, ModesOptions, SimulateOptions};
-use crate::output::{Failure, print, print_json, remark, write};
+use crate::output::{Failure, make_directory, print, print_json, remark, write};
 use crate::tables;
 use albatross::analysis::{self, Trimmed};
 use albatross::flight::{TimeHistory, Trim};
 use albatross::lti::Response;
 use albatross::modal::{BasisOptions, ModalBasis, OnViolation, Selection};
-use albatross::{Inputs, Model};
+use albatross::nastran::Deck;
+use albatross::{Inputs, Model, shapes};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -35,7 +36,7 @@ pub(crate) fn load_with_notes(options: &CaseOptions) -> Result<Loaded, Failure> 
 }
 
 pub(crate) fn modes(options: &ModesOptions) -> Result<(), Failure> {
-    let (basis, modes) = match (&options.case, &options.deck, &options.results) {
+    let Modes { deck, basis, rows } = match (&options.case, &options.deck, &options.results) {
         (Some(case), None, None) => modes_of_case(case)?,
         (None, Some(deck), Some(results)) => modes_of_files(deck, results, options.modes)?,
         _ => {
@@ -49,24 +50,39 @@ pub(crate) fn modes(options: &ModesOptions) -> Result<(), Failure> {
             remark(&format!("note: {note}"));
         }
     }
+    if let Some(file) = &options.svg {
+        if let Some(directory) = file.parent() {
+            make_directory(directory)?;
+        }
+        write(file, &shapes::of_structure(&deck, &basis).render()?)?;
+    }
     if options.json {
-        print_json(&modes_json(&basis, &modes))
+        print_json(&modes_json(&basis, &rows))
     } else {
-        print(&tables::modes(&modes)?.to_text())
+        print(&tables::modes(&rows)?.to_text())
     }
 }
 
-type BasisAndModes = (ModalBasis, Vec<analysis::StructuralMode>);
+/// A basis, the deck that it is of, and what is said of each mode.
+struct Modes {
+    deck: Deck,
+    basis: ModalBasis,
+    rows: Vec<analysis::StructuralMode>,
+}
 
-fn modes_of_case(case: &Path) -> Result<BasisAndModes, Failure> {
+fn modes_of_case(case: &Path) -> Result<Modes, Failure> {
     let inputs = Inputs::read(case)?;
     let basis = inputs.basis()?;
-    let modes = analysis::modes_of_basis(&basis, &inputs.damping(basis.modes.len())?, &inputs.components()?);
-    Ok((basis, modes))
+    let rows = analysis::modes_of_basis(&basis, &inputs.damping(basis.modes.len())?, &inputs.components()?);
+    Ok(Modes {
+        deck: inputs.deck,
+        basis,
+        rows,
+    })
 }
 
 /// Modes of a deck and its results alone, without damping; elastic ones, all or as many as asked for.
-fn modes_of_files(deck: &Path, results: &Path, how_many: Option<usize>) -> Result<BasisAndModes, Failure> {
+fn modes_of_files(deck: &Path, results: &Path, how_many: Option<usize>) -> Result<Modes, Failure> {
     let (deck, _) = albatross::nastran::bdf::read_strict(deck).map_err(albatross::Error::from)?;
     let results = albatross::inputs::read_results(results)?;
     let choice = BasisOptions {
@@ -75,8 +91,8 @@ fn modes_of_files(deck: &Path, results: &Path, how_many: Option<usize>) -> Resul
         ..BasisOptions::default()
     };
     let basis = ModalBasis::from_nastran(&deck, &results, &choice).map_err(albatross::Error::from)?;
-    let modes = analysis::modes_of_basis(&basis, &[], &[]);
-    Ok((basis, modes))
+    let rows = analysis::modes_of_basis(&basis, &[], &[]);
+    Ok(Modes { deck, basis, rows })
 }
 
 pub(crate) fn modes_json(basis: &ModalBasis, modes: &[analysis::StructuralMode]) -> Value {

@@ -1,11 +1,14 @@
 //! The command `albatross`.
 
+#![warn(clippy::indexing_slicing, clippy::string_slice)]
+
 mod args;
 mod case;
 mod check;
 mod excerpt;
 mod export;
 mod figures;
+mod gathered;
 mod identification;
 mod lattice;
 mod neutral;

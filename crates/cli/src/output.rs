@@ -181,6 +181,9 @@ pub(crate) fn make_directory(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Begins the names of files and directories that are not complete.
+pub(crate) const TEMPORARY: &str = ".albatross-";
+
 /// Writes a text file as [`write_bytes`] does.
 pub(crate) fn write(path: &Path, content: &str) -> Result<(), Failure> {
     write_bytes(path, content.as_bytes())
@@ -197,7 +200,7 @@ pub(crate) fn write_bytes(path: &Path, content: &[u8]) -> Result<(), Failure> {
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
     let mut file = tempfile::Builder::new()
-        .prefix(".albatross-")
+        .prefix(TEMPORARY)
         .tempfile_in(directory)
         .map_err(fail)?;
     file.write_all(content).map_err(fail)?;
@@ -205,74 +208,6 @@ pub(crate) fn write_bytes(path: &Path, content: &[u8]) -> Result<(), Failure> {
     readable(file.as_file()).map_err(fail)?;
     file.persist(path).map_err(|e| fail(e.error))?;
     Ok(())
-}
-
-/// Files gathered beside a directory and moved in together at the end: a command that fails leaves nothing behind.
-pub(crate) struct Gathered {
-    directory: tempfile::TempDir,
-}
-
-impl Gathered {
-    /// An empty collection for `out`, whose parents are made if they are not there.
-    pub(crate) fn beside(out: &Path) -> Result<Self, Failure> {
-        let parent = out
-            .parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
-        make_directory(parent)?;
-        let directory = tempfile::Builder::new()
-            .prefix(".albatross-")
-            .tempdir_in(parent)
-            .map_err(|source| Failure::Write {
-                path: parent.display().to_string(),
-                source,
-            })?;
-        Ok(Self { directory })
-    }
-
-    /// Where the files are gathered.
-    pub(crate) fn path(&self) -> &Path {
-        self.directory.path()
-    }
-
-    /// Adds a file.
-    pub(crate) fn add(&self, name: &str, content: &str) -> Result<(), Failure> {
-        write(&self.path().join(name), content)
-    }
-
-    /// Adds a file of JSON.
-    pub(crate) fn add_json(&self, name: &str, value: &impl serde::Serialize) -> Result<(), Failure> {
-        self.add(name, &(serde_json::to_string_pretty(value)? + "\n"))
-    }
-
-    /// Names of the files, sorted.
-    pub(crate) fn names(&self) -> Result<Vec<String>, Failure> {
-        let fail = |source| Failure::Write {
-            path: self.path().display().to_string(),
-            source,
-        };
-        let entries = std::fs::read_dir(self.path()).map_err(fail)?;
-        let mut names: Vec<String> = entries
-            .filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned()))
-            .collect();
-        names.sort();
-        Ok(names)
-    }
-
-    /// Moves all files into the directory, each at once.
-    pub(crate) fn move_to(self, out: &Path) -> Result<(), Failure> {
-        let fail = |path: &Path, source: std::io::Error| Failure::Write {
-            path: path.display().to_string(),
-            source,
-        };
-        make_directory(out)?;
-        for entry in std::fs::read_dir(self.path()).map_err(|e| fail(self.path(), e))? {
-            let entry = entry.map_err(|e| fail(self.path(), e))?;
-            let target = out.join(entry.file_name());
-            std::fs::rename(entry.path(), &target).map_err(|e| fail(&target, e))?;
-        }
-        Ok(())
-    }
 }
 
 /// Temporary files are private; results are not.

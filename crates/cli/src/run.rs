@@ -2,13 +2,14 @@
 
 use crate::args::RunOptions;
 use crate::case::{self, Loaded};
-use crate::output::{Failure, Gathered, print, print_json, write};
+use crate::gathered::Gathered;
+use crate::output::{Failure, print, print_json, write};
 use crate::progress::Progress;
 use crate::{figures, report, tables};
 use albatross::analysis::{self, ModeTable, Trimmed};
 use albatross::flight::TimeHistory;
 use albatross::report::Table;
-use albatross::root_locus;
+use albatross::{root_locus, shapes};
 use serde_json::json;
 use std::path::Path;
 
@@ -83,6 +84,10 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         })?;
         write(&out.join("report.html"), &page)
     })?;
+    write(
+        &out.join("mode_shapes.svg"),
+        &shapes::mode_shapes(&inputs, &model).render()?,
+    )?;
     write(&out.join("notes.txt"), &(model.notes.join("\n") + "\n"))?;
     let files = gathered.names()?.len();
     gathered.move_to(&options.out)?;

@@ -1,7 +1,8 @@
 //! Completions and manual pages.
 
 use crate::args::{Arguments, ManOptions};
-use crate::output::{Failure, Gathered, print, print_json};
+use crate::gathered::Gathered;
+use crate::output::{Failure, print, print_json};
 use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;

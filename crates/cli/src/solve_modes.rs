@@ -89,7 +89,9 @@ fn json(options: &SolveModesOptions, model: &FemModel, modes: &Modes) -> Value {
                 Value::Array(rows.collect())
             })
             .collect();
-        value["eigenvectors"] = Value::Array(vectors);
+        if let Some(object) = value.as_object_mut() {
+            object.insert("eigenvectors".into(), Value::Array(vectors));
+        }
     }
     value
 }

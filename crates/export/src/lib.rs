@@ -29,17 +29,12 @@
 //! use albatross_lti::{Signal, StateSpace};
 //! use albatross_numerics::Mat;
 //!
-//! let system = StateSpace::try_new(
-//!     (
-//!         Mat::from_fn(2, 2, |i, j| [[0.0, 1.0], [-100.0, -0.2]][i][j]),
-//!         Mat::from_fn(2, 1, |i, _| i as f64),
-//!         Mat::from_fn(1, 2, |_, j| [1.0, 0.0][j]),
-//!         Mat::zeros(1, 1),
-//!     ),
-//!     vec![Signal::new("bending", "m"), Signal::new("bending rate", "m/s")],
-//!     vec![Signal::new("force", "N/kg")],
-//!     vec![Signal::new("tip", "m")],
-//! )?;
+//! let a = Mat::from_fn(2, 2, |i, j| [[0.0, 1.0], [-100.0, -0.2]][i][j]);
+//! let b = Mat::from_fn(2, 1, |i, _| i as f64);
+//! let c = Mat::from_fn(1, 2, |_, j| [1.0, 0.0][j]);
+//! let states = vec![Signal::new("bending", "m"), Signal::new("bending rate", "m/s")];
+//! let (inputs, outputs) = (vec![Signal::new("force", "N/kg")], vec![Signal::new("tip", "m")]);
+//! let system = StateSpace::try_new((a, b, c, Mat::zeros(1, 1)), states, inputs, outputs)?;
 //! let record = state_space(&system, None)?;
 //! let file = mat::write(&record)?; // sys = ss(A, B, C, D, 'StateName', StateName)
 //! assert!(file.starts_with(b"MATLAB 5.0 MAT-file"));

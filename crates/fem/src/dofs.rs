@@ -1,5 +1,6 @@
 //! Numbering of freedoms: six for each grid, one for each scalar point, in ascending point number.
 
+use crate::error::Error;
 use albatross_nastran::Deck;
 use albatross_nastran::deck::Id;
 use std::collections::BTreeMap;
@@ -24,7 +25,17 @@ pub struct Freedoms {
 }
 
 impl Freedoms {
-    pub(crate) fn of(deck: &Deck) -> Self {
+    /// Numbers the freedoms of a deck.
+    ///
+    /// # Errors
+    /// [`Error::BadElement`] for a number that a grid and a scalar point share.
+    pub(crate) fn of(deck: &Deck) -> Result<Self, Error> {
+        if let Some(id) = deck.scalar_points.iter().find(|id| deck.grids.contains_key(id)) {
+            return Err(Error::BadElement {
+                card: format!("SPOINT {id}"),
+                problem: "is a GRID of the deck too; give one of them another number".into(),
+            });
+        }
         let structural = deck.grids.values().filter(|g| !g.fluid).map(|g| (g.id, false));
         let all: BTreeMap<Id, bool> = structural
             .chain(deck.scalar_points.iter().map(|&id| (id, true)))
@@ -39,7 +50,7 @@ impl Freedoms {
             });
             freedoms.count += if is_scalar { 1 } else { 6 };
         }
-        freedoms
+        Ok(freedoms)
     }
 
     /// Points in ascending number.

@@ -1,4 +1,6 @@
 //! Participation factors and effective masses of modes.
+//!
+//! Equations: THEORY (46).
 
 use nalgebra::Vector3;
 

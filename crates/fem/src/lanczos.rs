@@ -8,6 +8,8 @@
 //! theta (Ericsson and Ruhe, Math. Comp. 35, 1980; Grimes, Lewis and Simon, SIAM J. Matrix Anal. 15, 1994). The basis
 //! is kept M-orthonormal against all earlier blocks by two Gram-Schmidt passes. M may be singular: vectors without
 //! mass are purged because every basis block, and every result, is a product of the operator.
+//!
+//! Equations: THEORY (44).
 
 use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;
@@ -314,6 +316,13 @@ impl Krylov<'_> {
     /// Eigenvalues of the projected operator, largest first, and its eigenvectors.
     fn ritz(&self) -> Result<(Vec<f64>, Mat<f64>), Error> {
         let m = self.size;
+        if m == 0 {
+            // Nothing of the start was left: the library takes no empty matrix.
+            return Err(Error::EmptyModel {
+                problem: "no motion of the model has positive mass and stiffness; correct negative masses and inertias"
+                    .into(),
+            });
+        }
         let t = Mat::from_fn(m, m, |i, j| self.projected[i.max(j)][i.min(j)]);
         let eigen = t
             .self_adjoint_eigen(Side::Lower)

@@ -180,7 +180,7 @@ impl FemModel {
             deck,
             frames: &frames,
         };
-        let freedoms = Freedoms::of(deck);
+        let freedoms = Freedoms::of(deck)?;
         let stiffness = Stiffness::assemble(&context, &freedoms)?;
         remarks.extend(stiffness.remarks);
         let relations = multipoint::relations(&context, &freedoms, options.subcase)?;

@@ -1,4 +1,6 @@
 //! Normal modes, K phi = lambda M phi.
+//!
+//! Equations: THEORY (39).
 
 use albatross_nastran::deck::Id;
 use albatross_nastran::{
@@ -168,8 +170,29 @@ impl FemModel {
         }
     }
 
+    /// Refuses a free freedom of negative mass: the mass matrix is then indefinite, and its modes are not vibrations. A
+    /// negative mass that a rigid connection makes up for is in order.
+    fn refuse_negative_mass(&self) -> Result<(), Error> {
+        // What sums of masses leave of zero.
+        const ROUNDING: f64 = 1e-12;
+        let diagonal = self.mass.diagonal();
+        let largest = diagonal.iter().fold(0.0_f64, |a, m| a.max(m.abs()));
+        let mut free = self.constraints.free.iter().zip(&diagonal);
+        match free.find(|(_, mass)| **mass < -ROUNDING * largest) {
+            None => Ok(()),
+            Some((freedom, mass)) => Err(Error::BadMass {
+                card: self.freedoms().name(*freedom),
+                problem: format!(
+                    "its mass, with all that is rigidly connected to it, is {mass:.6e}; correct a negative mass, \
+                     inertia, RHO or NSM there"
+                ),
+            }),
+        }
+    }
+
     /// The model with motions held that have neither stiffness nor mass, and remarks that name them.
     fn without_massless_motions(&self) -> Result<(Cow<'_, Self>, Vec<String>), Error> {
+        self.refuse_negative_mass()?;
         let mut model = Cow::Borrowed(self);
         let mut held = Vec::new();
         loop {

@@ -6,6 +6,8 @@
 //! | RBAR | rigid motion from six independent components spread over two grids |
 //! | RBE3 | the reference grid has the weighted mean motion, `(S^T W S)^-1 S^T W u`, S the rigid motions of the grids |
 //! | MPC | the first term, of the set that case control selects |
+//!
+//! Equations: THEORY (42), (43).
 
 use albatross_nastran::deck::{Components, Id, Mpc, Rbar, Rbe2, Rbe3};
 use albatross_nastran::frames::ResolvedGrid;

@@ -8,6 +8,8 @@
 //!
 //! Guyan (AIAA J. 3, 1965) leaves out Phi; Craig and Bampton (AIAA J. 6, 1968) keep the lowest modes with the boundary
 //! held. Static deflections under boundary loads are exact in both.
+//!
+//! Equations: THEORY (45).
 
 use albatross_nastran::Deck;
 use albatross_nastran::deck::{Components, Id};

@@ -2,6 +2,8 @@
 //!
 //! Lift and drag are in wind axes by incidence, side force and moments in body axes (x forward, y right, z down)
 //! about the centre of gravity. Angles in rad, rates as `p b/2V`, `q cbar/2V`, `r b/2V`, controls in rad.
+//!
+//! Equations: THEORY (18).
 
 use crate::scalar::Scalar;
 use albatross_strip::quasi_steady::ReferenceShape;

@@ -1,4 +1,6 @@
 //! The International Standard Atmosphere (ISO 2533:1975; ICAO Doc 7488) up to 32 km of geopotential altitude.
+//!
+//! Equations: THEORY (18a).
 
 use num_dual::DualNum;
 use std::ops::RangeInclusive;

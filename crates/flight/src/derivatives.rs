@@ -8,6 +8,8 @@
 //! Cl = Cl' cos - Cn' sin      d/dp = cos d/dp' - sin d/dr'
 //! Cn = Cn' cos + Cl' sin      d/dr = cos d/dr' + sin d/dp'
 //! ```
+//!
+//! Equations: THEORY (17), (17a), (17b), (17c).
 
 use crate::Error;
 use crate::aerodynamics::{Coefficient, Drag, RigidAerodynamics};

@@ -2,6 +2,8 @@
 //!
 //! Modal rows and body-force rows multiply the same vectors, so they are stacked at construction: modes first, then
 //! `Fx Fy Fz Mx My Mz`. The apparent mass is diagonalised once, so that a changing density costs no factorisation.
+//!
+//! Equations: THEORY (11), (16b), (21), (21d).
 
 use crate::Error;
 use crate::aircraft::{Aircraft, ControlAerodynamics, ElasticPart, Fidelity, ModelOptions};

@@ -2,6 +2,8 @@
 //!
 //! Order of evaluation: air variables, then `etadd` (which does not depend on the rigid-body accelerations), then lag
 //! rates, then forces, then rigid-body accelerations: no algebraic loop. Nothing is allocated.
+//!
+//! Equations: THEORY (19), (20), (21).
 
 use crate::Error;
 use crate::aircraft::{Aircraft, Fidelity, ModelOptions};

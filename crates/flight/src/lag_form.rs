@@ -4,6 +4,8 @@
 //! `nu_i = lambda_i - A_i w`, `w = V w_eta eta + w_etad etad`, they obey `nu_i' = (2 V a_i/c) (nu_i + A_i w)`, and the block
 //! is diagonal. The transformation changes neither eigenvalues nor transfer functions, and a frequency response can
 //! eliminate the lags one by one.
+//!
+//! Equations: THEORY (26).
 
 use crate::Error;
 use crate::aircraft::Fidelity;

@@ -2,6 +2,8 @@
 //!
 //! Order: `u v w p q r | attitude | altitude | north, east (optional) | eta | etad | lags`. Attitude is
 //! `phi theta psi` or the quaternion `q0 q1 q2 q3` from earth (north, east, down) to body.
+//!
+//! Equations: THEORY (21a), (21b), (21c).
 
 use crate::aircraft::Attitude;
 use crate::scalar::Scalar;

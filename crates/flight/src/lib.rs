@@ -26,36 +26,40 @@
 //! the undeformed shape. Deformation is small: linear structure, fixed mode shapes.
 //!
 //! # Example
-//! A rigid glider-like aircraft trims where lift equals weight:
+//! A rigid glider-like aircraft trims where lift equals weight. It is plain data ([`Aircraft`]), not shown here:
 //!
 //! ```
-//! use albatross_flight::aerodynamics::{Coefficient, Drag, RigidAerodynamics};
-//! use albatross_flight::{Aircraft, Engine, FlightPoint, ModelOptions, trim};
-//! use albatross_strip::quasi_steady::ReferenceShape;
-//!
-//! let c = |zero, alpha, q_hat, elevator| Coefficient { zero, alpha, q_hat, controls: vec![elevator], ..Default::default() };
-//! let side = Coefficient { controls: vec![0.0], ..Default::default() };
-//! let aircraft = Aircraft {
-//!     mass: 81_000.0,
-//!     inertia: [[1.7e6, 0.0, 0.0], [0.0, 6.0e6, 0.0], [0.0, 0.0, 7.4e6]],
-//!     gravity: 9.80665,
-//!     reference: ReferenceShape { area: 130.1, chord: 3.35, span: 45.0 },
-//!     controls: vec!["elevator".into()],
-//!     rigid: RigidAerodynamics {
-//!         lift: c(0.4, 7.3, 18.0, 0.7),
-//!         drag: Drag::Polar { zero: 0.021, k: 0.0245 },
-//!         pitch: c(0.077, -3.3, -94.0, -4.4),
-//!         side: side.clone(), roll: side.clone(), yaw: side,
-//!     },
-//!     engines: vec![Engine::through_cg()],
-//!     elastic: None,
-//!     sensors: vec![],
-//! };
+//! # use albatross_flight::aerodynamics::{Coefficient, Drag, RigidAerodynamics};
+//! # use albatross_flight::{Aircraft, Engine};
+//! # use albatross_strip::quasi_steady::ReferenceShape;
+//! use albatross_flight::{FlightPoint, ModelOptions, Quantity, Sensor, linearize, trim};
+//! # let c = |zero, alpha, q_hat, elevator| Coefficient { zero, alpha, q_hat, controls: vec![elevator], ..Default::default() };
+//! # let side = Coefficient { controls: vec![0.0], ..Default::default() };
+//! # let mut aircraft = Aircraft {
+//! #     mass: 81_000.0,
+//! #     inertia: [[1.7e6, 0.0, 0.0], [0.0, 6.0e6, 0.0], [0.0, 0.0, 7.4e6]],
+//! #     gravity: 9.80665,
+//! #     reference: ReferenceShape { area: 130.1, chord: 3.35, span: 45.0 },
+//! #     controls: vec!["elevator".into()],
+//! #     rigid: RigidAerodynamics {
+//! #         lift: c(0.4, 7.3, 18.0, 0.7),
+//! #         drag: Drag::Polar { zero: 0.021, k: 0.0245 },
+//! #         pitch: c(0.077, -3.3, -94.0, -4.4),
+//! #         side: side.clone(), roll: side.clone(), yaw: side,
+//! #     },
+//! #     engines: vec![Engine::through_cg()],
+//! #     elastic: None,
+//! #     sensors: vec![],
+//! # };
+//! aircraft.sensors.push(Sensor::at_cg("n_z", Quantity::LoadFactor));
 //! let point = FlightPoint { speed: 232.7, altitude: 10_258.0, path_angle_rad: 0.0, control: "elevator".into() };
-//! let (_, level) = trim(&aircraft, ModelOptions::default(), &point)?;
+//! let (equations, level) = trim(&aircraft, ModelOptions::default(), &point)?;
 //! let lift = level.dynamic_pressure * 130.1 * (0.4 + 7.3 * level.alpha_rad + 0.7 * level.controls_rad[0]);
 //! let weight = 81_000.0 * 9.80665;
 //! assert!((lift - weight + level.thrust * level.alpha_rad.sin()).abs() < 1e-6 * weight);
+//!
+//! let system = linearize(&equations, &level.state, &level.input)?; // A, B, C, D with names
+//! assert_eq!(system.outputs[0].name, "n_z");
 //! # Ok::<(), albatross_flight::Error>(())
 //! ```
 

@@ -3,6 +3,8 @@
 //! Acceleration of a point fixed in the mean axes plus its elastic acceleration, body axes:
 //! `a_P = Vdot + omega x V + omegadot x r + omega x (omega x r)`, `a_z = [a_P]_z - phi_P etadd` (positive down).
 //! The Coriolis term of the elastic motion is neglected, as the mean-axes equations do.
+//!
+//! Equations: THEORY (22), (22a).
 
 use crate::Error;
 use crate::equations::{EquationsOfMotion, cross, ensure_size};

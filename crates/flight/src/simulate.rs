@@ -73,11 +73,13 @@ impl Manoeuvre {
             }
         }
         let steps = (self.end / self.dt).round();
-        if steps > 1e9 || (steps * self.dt - self.end).abs() > 1e-6 * self.dt * steps.max(1.0) {
+        if !(1.0..=1e9).contains(&steps)
+            || (steps * self.dt - self.end).abs() > 1e-6 * self.dt * steps.max(1.0)
+        {
             return Err(Error::BadSignal {
                 quantity: "end/dt",
                 value: self.end / self.dt,
-                expected: "a whole number of steps below 1e9",
+                expected: "a whole number of steps, 1 to 1e9",
             });
         }
         if self.output_every == 0 {

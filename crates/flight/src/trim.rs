@@ -3,6 +3,8 @@
 //! Unknowns are incidence, one control and the thrust; the modes follow from static equilibrium,
 //! `(K - rho V^2 Q_eta) eta = q S cbar (Q_0 + Q_alpha alpha + Q_u u) + T phi_T`, so that Newton's method works on
 //! three accelerations: along body x, along body z, in pitch.
+//!
+//! Equations: THEORY (23), (23a), (23b).
 
 use crate::aircraft::{Aircraft, ModelOptions, ShapeReference};
 use crate::equations::EquationsOfMotion;

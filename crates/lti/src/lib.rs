@@ -35,17 +35,12 @@
 //! use albatross_numerics::Mat;
 //!
 //! let omega = 2.5 * std::f64::consts::TAU;
-//! let system = StateSpace::try_new(
-//!     (
-//!         Mat::from_fn(2, 2, |i, j| [[0.0, 1.0], [-omega * omega, -2.0 * 0.01 * omega]][i][j]),
-//!         Mat::from_fn(2, 1, |i, _| [0.0, 1.0][i]),
-//!         Mat::from_fn(1, 2, |_, j| [omega * omega, 0.0][j]),
-//!         Mat::zeros(1, 1),
-//!     ),
-//!     vec![Signal::new("bending", "m"), Signal::new("bending rate", "m/s")],
-//!     vec![Signal::new("force", "N/kg")],
-//!     vec![Signal::new("tip", "m")],
-//! )?;
+//! let a = Mat::from_fn(2, 2, |i, j| [[0.0, 1.0], [-omega * omega, -2.0 * 0.01 * omega]][i][j]);
+//! let b = Mat::from_fn(2, 1, |i, _| [0.0, 1.0][i]);
+//! let c = Mat::from_fn(1, 2, |_, j| [omega * omega, 0.0][j]);
+//! let states = vec![Signal::new("bending", "m"), Signal::new("bending rate", "m/s")];
+//! let (inputs, outputs) = (vec![Signal::new("force", "N/kg")], vec![Signal::new("tip", "m")]);
+//! let system = StateSpace::try_new((a, b, c, Mat::zeros(1, 1)), states, inputs, outputs)?;
 //! let mode = &mode_table(&system)?[0];
 //! assert!((mode.frequency_hz - 2.5).abs() < 1e-12 && (mode.damping_ratio - 0.01).abs() < 1e-14);
 //!

@@ -8,6 +8,8 @@
 //! ```
 //! so that [sx; y] = (S0 + sum_g w_g(s) S_g) [x; u] with one real matrix S_g = [Axz; Cz]_g [Azx, Bz]_g per
 //! distinct rate l_g and w_g = 1/(s - l_g). Only a matrix of the order of the core is factorised.
+//!
+//! Equations: THEORY (26a).
 
 //!
 //! Lags whose S_g differ by a factor alone, as the two of one strip do, share one matrix and add up their weights. States

@@ -17,6 +17,8 @@
 //! **Veering.** Where two modes repel each other sharply, steps wider than the repulsion keep the mode shape
 //! and narrower ones keep the branch. [`TrackOptions::largest_step`] decides, and is part of the definition of
 //! a label.
+//!
+//! Equations: THEORY (25a).
 
 mod matching;
 mod spectrum;

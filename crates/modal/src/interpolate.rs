@@ -10,6 +10,8 @@
 //! Motion and axis go through the same linear operator (cubic, linear), so a rigid motion of the aircraft is
 //! reproduced exactly at every station. PCHIP limits slopes and is not linear in its data: there, a rigid motion is
 //! exact for each of the six directions alone, and combined ones deviate near kinks of the axis.
+//!
+//! Equations: THEORY (5), (5a).
 
 use albatross_nastran::deck::Id;
 use albatross_numerics::Mat;

@@ -31,7 +31,7 @@
 //! use albatross_nastran::{bdf, f06};
 //! use albatross_numerics::interp::Method;
 //!
-//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/f25-like");
+//! # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/f25-like");
 //! let (deck, _) = bdf::read_strict(format!("{folder}/f25.bdf"))?;
 //! let results = f06::read(format!("{folder}/f25.f06"))?;
 //!
@@ -39,8 +39,6 @@
 //! let basis = ModalBasis::from_nastran(&deck, &results, &options)?;
 //! let bending = &basis.modes[0];
 //! assert_eq!((bending.number, bending.symmetry), (7, Symmetry::Symmetric));
-//! assert!((bending.frequency_hz - 2.4309).abs() < 1e-4);
-//! assert!((basis.mass.unwrap().mass - 81018.49).abs() < 0.01);
 //!
 //! let wing = LoadReferenceAxis { name: "right wing".into(), grids: (1000..=1025).collect() };
 //! let strips = [Station { x: 18.7, y: 6.0, z: -0.8 }, Station { x: 26.6, y: 22.4, z: 0.64 }];

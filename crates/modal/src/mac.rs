@@ -3,6 +3,8 @@
 //! `MAC(k, l) = (phi_k^T M phi_l)^2 / (phi_k^T M phi_k  phi_l^T M phi_l)` (Allemang and Brown, IMAC 1982, with the
 //! mass matrix as weight). It does not depend on sign and normalisation. Modes of a pair with equal frequency may
 //! be turned against each other; compare the pair as a whole then.
+//!
+//! Equations: THEORY (4c).
 
 use albatross_numerics::{Mat, MatRef};
 use std::collections::BTreeMap;

@@ -3,6 +3,8 @@
 //! Rigid motion R and elastic motion then separate in the kinetic energy (Waszak and Schmidt, J. Aircraft 25,
 //! 1988), and the equations of a rigid aircraft hold for the mean axes. Exact free-free modes fulfil this by
 //! orthogonality; modes of a clamped model, of another mass state, or from another deck do not.
+//!
+//! Equations: THEORY (3), (4).
 
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;

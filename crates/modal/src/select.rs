@@ -3,6 +3,8 @@
 //! Frequency alone does not tell: a free model has six rigid modes, a half model three, a model on soft springs none
 //! at zero, and a very soft wing bends below any fixed limit. With the mass matrix the shape decides: the share of
 //! rigid motion in the kinetic energy is 1 for a rigid mode and 0 for a free-free elastic one.
+//!
+//! Equations: THEORY (4a).
 
 use albatross_nastran::ModalResults;
 use std::f64::consts::TAU;

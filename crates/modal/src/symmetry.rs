@@ -3,6 +3,8 @@
 //! The mirror S maps (T1, T2, T3, R1, R2, R3) to (T1, -T2, T3, -R1, R2, -R3): translations are a polar vector,
 //! rotations an axial one. A shape splits into (u + S u') / 2 and (u - S u') / 2 with u' the motion of the mirrored
 //! grid; the two parts are orthogonal for a mirrored mass, so their kinetic energies add up.
+//!
+//! Equations: THEORY (4b).
 
 use serde::Serialize;
 use std::collections::BTreeMap;

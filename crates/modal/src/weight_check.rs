@@ -49,7 +49,8 @@ pub(crate) fn compare(
         .max_by(|p, q| relative(p).total_cmp(&relative(q)))
         .unwrap_or_default();
     let (i, j) = worst;
-    if relative(&worst) > 2e-6 {
+    // Also where it is not a number.
+    if relative(&worst).is_nan() || relative(&worst) > 2e-6 {
         notes.push(format!(
             "the deck's mass differs from the grid point weight generator: {} / {} is {:.7e} by the deck and {:.7e} as \
              printed. Deck and results are of different mass states, or the program treats a mass card differently",

@@ -20,7 +20,7 @@ impl Remarks {
         card: impl Into<String>,
         message: impl Into<String>,
     ) {
-        let count = &mut self.counts[severity as usize];
+        let count = self.count(severity);
         *count += 1;
         if *count <= KEPT {
             self.list.push(Diagnostic {
@@ -33,10 +33,19 @@ impl Remarks {
         }
     }
 
+    fn count(&mut self, severity: Severity) -> &mut usize {
+        let [notes, warnings, errors] = &mut self.counts;
+        match severity {
+            Severity::Note => notes,
+            Severity::Warning => warnings,
+            Severity::Error => errors,
+        }
+    }
+
     /// All remarks, with one more for each severity that had too many.
     pub(crate) fn finish(mut self, file: &str) -> Vec<Diagnostic> {
         for severity in [Severity::Note, Severity::Warning, Severity::Error] {
-            let more = self.counts[severity as usize].saturating_sub(KEPT);
+            let more = self.count(severity).saturating_sub(KEPT);
             if more > 0 {
                 self.list.push(Diagnostic {
                     severity,

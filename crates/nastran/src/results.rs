@@ -174,7 +174,7 @@ impl GridPointWeight {
     /// model; scalar masses and constraints make them differ.
     #[must_use]
     pub fn directional_masses(&self) -> [f64; 3] {
-        std::array::from_fn(|i| self.mo[i][i])
+        [self.mo[0][0], self.mo[1][1], self.mo[2][2]]
     }
 
     /// The mass, when the three directions agree within 1 part in 10^6 (what the file prints); otherwise `None`.

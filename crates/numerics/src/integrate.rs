@@ -1,4 +1,6 @@
 //! Fixed-step integration of x' = f(t, x) without allocation in the loop.
+//!
+//! Equations: THEORY (26b).
 
 use crate::{Error, Result};
 

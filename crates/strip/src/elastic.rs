@@ -7,6 +7,8 @@
 //!
 //! Eq. 12 is printed with `Q_eta_etadd` inside Pi_1 and Pi_2; Eq. 10 shows that `Q_eta_eta` and `Q_eta_etad` are
 //! meant, and they are used here.
+//!
+//! Equations: THEORY (21), (24), (25).
 
 use crate::forces::{
     Downwash, GeneralizedForces, Split, downwash, generalized_forces, generalized_forces_between,

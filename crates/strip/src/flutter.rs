@@ -3,6 +3,8 @@
 //! Three descriptions of the same physics, which agree at a neutral point:
 //! the state space with lags ([`lag_flutter`]), the exact Theodorsen function on the imaginary axis
 //! ([`exact_flutter`]), and the static limit ([`divergence_speed`]). [`crate::sweep`] follows all modes over speed.
+//!
+//! Equations: THEORY (27), (27b).
 
 use crate::Error;
 use crate::elastic::AeroelasticModel;

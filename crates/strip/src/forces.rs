@@ -19,6 +19,8 @@
 //! The first factor of each product belongs to the *test* shape (the one that collects the work), the second to the
 //! *trial* shape (the one that moves). With elastic test shapes these are Eq. 10's matrices; with rigid-body test
 //! shapes the very same sums are the force and moment rows of Eqs. 7 and 8.
+//!
+//! Equations: THEORY (12), (13).
 
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};

@@ -3,6 +3,8 @@
 //! The exact functions come from Bessel functions. Wagner's and Küssner's are written as the real integrals along
 //! the branch cut of their Laplace transforms, which decay monotonically and are summed by the trapezoidal rule
 //! after the double-exponential substitution of Takahasi & Mori (1974).
+//!
+//! Equations: THEORY (11), (11a), (11b), (11c).
 
 use crate::Error;
 use albatross_numerics::C64;

@@ -8,6 +8,8 @@
 //! passes every neutral point of the model: humps and repeated crossings included, at any speed.
 //!
 //! The scan only has to find signs; each point is then solved for by Newton's method on `F(i omega, V) u = 0`.
+//!
+//! Equations: THEORY (27a).
 
 mod divergence;
 mod refine;

@@ -9,6 +9,8 @@
 //!
 //! `c_m` about the aerodynamic centre, nose up. The distributions come from strip output (differences of two runs)
 //! or, where there is none, from the analytic estimates of [`analytic_lift`].
+//!
+//! Equations: THEORY (14), (15), (16).
 
 use crate::shapes::{DihedralForm, StripShapes};
 use crate::strip::Strip;

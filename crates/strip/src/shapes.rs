@@ -1,4 +1,6 @@
 //! Mode shapes on strips: the normal displacement and the nose-up rotation at the load reference axis.
+//!
+//! Equations: THEORY (5), (6), (7), (13).
 
 use crate::strip::Strip;
 use crate::{Error, ensure_finite_entries, ensure_shape};

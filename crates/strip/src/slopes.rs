@@ -1,5 +1,7 @@
 //! Strips and their lift slopes: from two AVL strip files, from a table of higher fidelity, or from thin-airfoil
 //! theory with the Prandtl-Glauert rule.
+//!
+//! Equations: THEORY (8), (9).
 
 use crate::Error;
 use crate::strip::Strip;

@@ -1,4 +1,6 @@
 //! The strip: a piece of lifting surface of constant chord, with its own lift slope.
+//!
+//! Equations: THEORY (10a), (10b), (10c), (10d), (10e).
 
 use crate::Error;
 use std::f64::consts::PI;

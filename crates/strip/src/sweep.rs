@@ -10,6 +10,8 @@
 //! The crossings are those of [`neutral_points`] and [`divergence_points`], which do not depend on the speeds asked
 //! for: an instability between two of them is not missed. Every mode is followed through the crossing speeds too, and
 //! a crossing belongs to the mode that is neutral there.
+//!
+//! Equations: THEORY (27).
 
 mod pk;
 mod state_space;

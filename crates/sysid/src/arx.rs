@@ -2,6 +2,8 @@
 //!
 //! Consistent only when the equation error e is white; with noise on the output the poles are biased towards more
 //! damping, and [`crate::iv4`] is the remedy.
+//!
+//! Equations: THEORY (37).
 
 use albatross_numerics::{Mat, MatRef};
 

@@ -14,6 +14,8 @@
 //!                     [-a0/w  -a1 ]     [w]
 //! first order    x' = -a x + w u                     x  = w/D u
 //! ```
+//!
+//! Equations: THEORY (28a).
 
 use std::cmp::Ordering;
 
@@ -22,7 +24,10 @@ use serde::{Deserialize, Serialize};
 
 /// A factor of the denominator.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a factor of the denominator has neither `a1` and `a0` nor `a`"
+)]
 pub enum Block {
     /// s^2 + a1 s + a0.
     Second {

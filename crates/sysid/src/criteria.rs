@@ -12,6 +12,8 @@
 //! and Tsai's own derivation for regressions counts it. Less is better in all. Residuals of a deterministic simulation
 //! are model error, not noise: neighbouring samples are alike, `N` overstates the information, and all criteria favour
 //! high orders.
+//!
+//! Equations: THEORY (35).
 
 use serde::Serialize;
 

@@ -60,6 +60,18 @@ pub enum Error {
         /// Number of samples.
         samples: usize,
     },
+    /// A signal so large or small that squares of it are no numbers of double precision.
+    #[error(
+        "{experiment}: the largest value of {signal} is {largest:e}, expected 1e-60 to 1e60: give it in another unit"
+    )]
+    Size {
+        /// Which experiment.
+        experiment: String,
+        /// Which signal.
+        signal: String,
+        /// Its largest size.
+        largest: f64,
+    },
     /// Fewer samples than unknowns.
     #[error(
         "{poles} poles and {zeros} zeros have {unknowns} unknowns, but {experiments} give {samples} samples, at least {needed} are needed: lower the order or add data"

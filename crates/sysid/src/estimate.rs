@@ -434,17 +434,19 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
     let limit = match options.delay {
         Delay::Fixed(delay) | Delay::UpTo(delay) => delay,
     };
-    if !(limit.is_finite() && limit >= 0.0) {
-        return Err(Error::Domain {
-            what: "the transport delay [s]",
-            value: limit,
-            expected: "zero or a positive number",
-        });
-    }
+    check_numbers(options, limit, data)?;
     for experiment in &data.experiments {
         let signals = std::iter::once((&data.input, &experiment.input))
             .chain(data.outputs.iter().zip(&experiment.outputs));
         for (signal, values) in signals {
+            let largest = values.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+            if largest != 0.0 && !SIZES.contains(&largest) {
+                return Err(Error::Size {
+                    experiment: experiment.name.clone(),
+                    signal: signal.name.clone(),
+                    largest,
+                });
+            }
             let first = values.first().copied().unwrap_or(0.0);
             if values.iter().all(|v| *v == first) {
                 return Err(Error::Constant {
@@ -476,6 +478,60 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
         });
     }
     Ok(())
+}
+
+/// Sizes of signals whose squares and products are numbers of double precision.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+/// Most starts: each is a relocation of poles, and all are kept for the report.
+const MOST_STARTS: usize = 10_000;
+
+/// Refuses settings that are out of range.
+fn check_numbers(options: &Options, delay: f64, data: &DataSet) -> Result<()> {
+    let longest = data.experiments.iter().map(|e| e.duration()).fold(0.0, f64::max);
+    let domain = |what, value, expected| {
+        Err(Error::Domain {
+            what,
+            value,
+            expected,
+        })
+    };
+    if !(1e-12..=1e12).contains(&data.dt()) {
+        return domain("the sample time [s]", data.dt(), "a number from 1e-12 to 1e12");
+    }
+    if !(delay.is_finite() && delay >= 0.0) {
+        return domain("the transport delay [s]", delay, "zero or a positive number");
+    }
+    if delay > 0.0 && delay >= longest {
+        return domain(
+            "the transport delay [s]",
+            delay,
+            "less than the longest record lasts",
+        );
+    }
+    if !(0.0..1.0).contains(&options.tolerance) {
+        return domain(
+            "the tolerance of the search",
+            options.tolerance,
+            "a number from 0 to below 1",
+        );
+    }
+    if options.starts > MOST_STARTS {
+        return domain("the number of starts", options.starts as f64, "at most 10000");
+    }
+    match &options.weights {
+        Weights::Given(weights)
+            if weights
+                .iter()
+                .any(|w| !w.is_empty() && w.iter().all(|v| *v == 0.0)) =>
+        {
+            domain(
+                "the largest weight of an output",
+                0.0,
+                "a positive weight for one record at least",
+            )
+        }
+        _ => Ok(()),
+    }
 }
 
 fn names(data: &DataSet) -> String {

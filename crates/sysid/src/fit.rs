@@ -1,4 +1,6 @@
 //! The fit of a model to a record, and records counted from their trim.
+//!
+//! Equations: THEORY (30).
 
 /// Normalised root-mean-square fit in percent, the paper's Eq. 13:
 /// `100 (1 - |y - yhat| / |y - mean(y)|)`. 100 is equality, 0 as good as the mean; none for a constant reference.

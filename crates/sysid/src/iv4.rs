@@ -1,4 +1,6 @@
 //! Four-stage instrumental variables: A(q) y = B(q) u + v with coloured v.
+//!
+//! Equations: THEORY (37).
 
 use crate::arx::{PolynomialFit, Record, check_rows, fit, offsets, records, stack};
 use crate::discrete::{Orders, Polynomials};

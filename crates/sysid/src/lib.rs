@@ -38,33 +38,30 @@
 //! [`Options::reallocations`] say how hard they are fought, and nothing proves that the minimum found is the least.
 //!
 //! # Example
-//! Two modes from a doublet and noise of one percent:
+//! Two modes from samples `u` and `y` of a doublet, with noise of one percent (their making is not shown):
 //! ```
+//! # use albatross_numerics::C64;
+//! # use albatross_sysid::{Block, Model};
 //! use albatross_lti::Signal;
-//! use albatross_numerics::C64;
-//! use albatross_sysid::{Block, DataSet, Experiment, Intersample, Model, Options, estimate};
+//! use albatross_sysid::{DataSet, Experiment, Intersample, Options, estimate};
 //!
-//! let truth = Model {
-//!     input: Signal::new("elevator", "deg"),
-//!     outputs: vec![Signal::new("q", "deg/s")],
-//!     blocks: Block::from_poles(&[C64::new(-0.6, 1.6), C64::new(-0.5, 18.7)]),
-//!     coefficients: vec![vec![1.0, 0.4, -0.2, 0.1]],
-//!     direct: vec![0.0],
-//!     zeros: 3,
-//!     delay: 0.0,
-//! };
-//! let u: Vec<f64> = (0..1000).map(|k| f64::from((k / 50 == 1) as i8 - (k / 50 == 2) as i8)).collect();
-//! let mut random = fastrand::Rng::with_seed(1);
-//! let mut y = truth.simulate(&u, 0.01, Intersample::Zoh)?.remove(0);
-//! y.iter_mut().for_each(|y| *y += 0.01 * (random.f64() - 0.5));
-//!
-//! let data = DataSet::try_new(
-//!     truth.input.clone(),
-//!     truth.outputs.clone(),
-//!     vec![Experiment::new("doublet", 0.01, u, vec![y])],
-//!     Intersample::Zoh,
-//! )?;
-//! let found = estimate(&data, &Options::new(4, 3))?;
+//! # let truth = Model {
+//! #     input: Signal::new("elevator", "deg"),
+//! #     outputs: vec![Signal::new("q", "deg/s")],
+//! #     blocks: Block::from_poles(&[C64::new(-0.6, 1.6), C64::new(-0.5, 18.7)]),
+//! #     coefficients: vec![vec![1.0, 0.4, -0.2, 0.1]],
+//! #     direct: vec![0.0],
+//! #     zeros: 3,
+//! #     delay: 0.0,
+//! # };
+//! # let u: Vec<f64> = (0..1000).map(|k| f64::from((k / 50 == 1) as i8 - (k / 50 == 2) as i8)).collect();
+//! # let mut random = fastrand::Rng::with_seed(1);
+//! # let mut y = truth.simulate(&u, 0.01, Intersample::Zoh)?.remove(0);
+//! # y.iter_mut().for_each(|y| *y += 0.01 * (random.f64() - 0.5));
+//! let record = Experiment::new("doublet", 0.01, u, vec![y]);
+//! let (input, outputs) = (Signal::new("elevator", "deg"), vec![Signal::new("q", "deg/s")]);
+//! let data = DataSet::try_new(input, outputs, vec![record], Intersample::Zoh)?;
+//! let found = estimate(&data, &Options::new(4, 3))?; // four poles, three zeros
 //! for mode in &found.uncertainty.as_ref().ok_or("too few samples")?.modes {
 //!     println!("{:.3} +- {:.3} rad/s", mode.frequency_rad_s, mode.sd_frequency_rad_s);
 //! }
@@ -114,6 +111,7 @@ mod spectrum;
 mod start;
 mod stillness;
 pub mod subspace;
+#[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod table;
 mod triangle;
 pub mod trim;

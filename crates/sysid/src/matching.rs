@@ -4,6 +4,8 @@
 //! `|ln(w_1/w_2)|` ([`crate::assignment`]). Pairing every pole with its nearest neighbour would give one mode to two
 //! poles. A frequency says nothing about shape: modes that the output cannot see (antisymmetric ones under a symmetric
 //! input) must be left out of the reference, or they take the place of their neighbours.
+//!
+//! Equations: THEORY (36).
 
 use albatross_numerics::C64;
 use serde::Serialize;

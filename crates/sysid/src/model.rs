@@ -1,4 +1,6 @@
 //! The identified model: a sum of real fractions with common poles.
+//!
+//! Equations: THEORY (28).
 
 use albatross_lti::{Signal, StateSpace, TransferFunction, Zpk};
 use albatross_numerics::{C64, Mat};

@@ -7,6 +7,8 @@
 //! Powers of A lose all digits, so the constraints are taken on an orthonormal basis Q of the same Krylov space
 //! (Arnoldi 1951, orthogonalised twice): c is any vector of the complement of Q. With the coefficients of the recursion
 //! held fixed, Q(theta) defines the same constraints for every denominator, which gives the derivative of c.
+//!
+//! Equations: THEORY (30a).
 
 use albatross_numerics::faer::linalg::solvers::Qr;
 use albatross_numerics::matrix::dot;

@@ -8,6 +8,8 @@
 //! Directions, tried in turn or alone: Gauss-Newton on the subspace of the singular values that count, Gauss-Newton with
 //! an adaptive bound for them, Levenberg-Marquardt (1944, 1963), steepest descent. Each is halved until V falls.
 //! The order and the constants are those documented for MATLAB's `tfest` (Ljung, System Identification Toolbox).
+//!
+//! Equations: THEORY (29), (32).
 
 use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::solvers::Svd;

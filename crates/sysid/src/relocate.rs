@@ -11,6 +11,8 @@
 //! biases plain least squares; the instruments X\[yhat\] of the fitted model's output are free of it.
 //!
 //! One sweep with fixed blocks and plain least squares is the method of state-variable filters.
+//!
+//! Equations: THEORY (31).
 
 use albatross_numerics::eigen::eigenvalues;
 use albatross_numerics::solve::solve_vec;

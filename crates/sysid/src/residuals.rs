@@ -21,6 +21,8 @@
 //! **Limits.** A record with a single doublet has few independent frequencies in its input: `P` contains the residuals'
 //! own correlation with it, so that only a coarse dependence is found. Residuals of deterministic simulations are never
 //! white.
+//!
+//! Equations: THEORY (34).
 
 use serde::Serialize;
 

@@ -6,6 +6,8 @@
 //!
 //! Sources: M. Verhaegen, P. Dewilde, Int. J. Control 56, 1992, 1187-1241 (MOESP); P. Van Overschee, B. De Moor,
 //! Subspace Identification for Linear Systems, 1996, chapters 2 and 4 (N4SID and the weightings).
+//!
+//! Equations: THEORY (38).
 
 use albatross_numerics::faer::linalg::solvers::Svd;
 use albatross_numerics::{C64, Mat, MatRef, eigen, solve};

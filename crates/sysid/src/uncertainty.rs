@@ -7,6 +7,8 @@
 //! (the sandwich: Ljung, System Identification, 2nd ed., sec. 9.4; White, Econometrica 50, 1982). For white residuals S is
 //! diagonal, with the variance of each record; for coloured ones it is the Toeplitz matrix of their autocorrelation.
 //! Frequencies, damping ratios, residues and responses follow by linearisation (delta method).
+//!
+//! Equations: THEORY (33).
 
 use albatross_lti::Signal;
 use albatross_numerics::faer::linalg::solvers::Svd;

@@ -2,6 +2,8 @@
 //!
 //! Kutta and Joukowski: F = rho Gamma V x l on the bound leg, with the velocity that wind, rotation and all other
 //! vortices make at it. In units of `q` and V that is 2 Gamma V x l, an area.
+//!
+//! Equations: THEORY (49).
 
 use crate::flow::{Flow, Solver, onset_velocity};
 use crate::lattice::{LatticeStrip, V3, Vortex};

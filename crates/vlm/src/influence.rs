@@ -3,6 +3,8 @@
 //! Row i states that no air passes control point i, `sum_j n_i . V_ij gamma_j = -n_i . V_onset`; on strips without
 //! wake the last row states that the strip's circulations sum to zero. The matrices are stored transposed, so a
 //! boundary condition is one contiguous column.
+//!
+//! Equations: THEORY (48).
 
 use albatross_numerics::Mat;
 use albatross_numerics::faer::dyn_stack::{MemBuffer, MemStack};

@@ -14,6 +14,8 @@
 //! Aerodynamics, sec. 10.6; Vatistas' n = 2).
 //!
 //! Compressibility is Prandtl and Glauert's: coordinates x/beta, and the x velocity divided by beta.
+//!
+//! Equations: THEORY (47).
 
 use pulp::Arch;
 use serde::{Deserialize, Serialize};

@@ -2,6 +2,8 @@
 //!
 //! A strip correction scales or turns the local incidence of strips; the change of all lifts follows from
 //! `d gamma = -A^-1 (d n_k . V)`, the boundary conditions of strip k turned by a unit angle.
+//!
+//! Equations: THEORY (51).
 
 use albatross_numerics::Mat;
 

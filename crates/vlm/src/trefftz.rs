@@ -2,6 +2,8 @@
 //!
 //! Each strip leaves a vortex pair of its whole circulation; the downwash is found at the strip's station
 //! (Katz and Plotkin, sec. 8.4): `CD = -sum Gamma_j (n_j . V_j) width_j / Sref`.
+//!
+//! Equations: THEORY (50).
 
 use std::f64::consts::PI;
 

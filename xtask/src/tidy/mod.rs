@@ -5,8 +5,10 @@
 //! - **Manifests.** Every crate has a description and inherits the workspace's lints, which ask for documentation.
 //! - **Size.** Source files stay below [`LONGEST`] lines.
 //! - **Text.** No tabs, carriage returns, trailing blanks or paths of one machine; files end in one line feed; links
-//!   between documents lead somewhere.
+//!   between documents lead to files and headings that are there.
+//! - **Equations.** Each `THEORY (12)` in a source is a numbered equation of `docs/THEORY.md`.
 
+mod equations;
 mod manifests;
 mod sources;
 mod text;
@@ -71,13 +73,14 @@ pub(crate) fn run() -> Result<(), Error> {
 /// All findings, a line each.
 fn findings(root: &Path) -> Result<Vec<String>, Error> {
     let mut found = manifests::check(root)?;
+    let theory = workspace::read(&root.join(equations::PAGE))?;
+    let numbered = equations::numbered(&theory);
+    found.extend(equations::check_page(&theory, &numbered));
     for (directory, _, kind) in PIPELINE {
         for file in files(&root.join(directory), &["rs"])? {
-            found.extend(sources::check(
-                &relative(root, &file),
-                &workspace::read(&file)?,
-                kind,
-            ));
+            let (path, source) = (relative(root, &file), workspace::read(&file)?);
+            found.extend(sources::check(&path, &source, kind));
+            found.extend(equations::check_source(&path, &source, &numbered));
         }
     }
     for file in own_text(root)? {
@@ -119,7 +122,7 @@ fn documents(root: &Path) -> Result<Vec<String>, Error> {
 fn own_text(root: &Path) -> Result<Vec<PathBuf>, Error> {
     let kinds = ["rs", "toml", "md", "json", "csv", "svg", "yml", "yaml", "lock"];
     let mut own = files(&root.join("fixtures/paper"), &kinds)?;
-    for directory in ["crates", "xtask", "docs", ".cargo"] {
+    for directory in ["crates", "xtask", "docs", "examples", ".cargo"] {
         own.extend(files(&root.join(directory), &kinds)?);
     }
     for entry in std::fs::read_dir(root).map_err(Error::file(root))? {
@@ -142,7 +145,9 @@ fn files(directory: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Error> {
         }
         for entry in std::fs::read_dir(&directory).map_err(Error::file(&directory))? {
             let path = entry.map_err(Error::file(&directory))?.path();
-            let built = path.file_name().is_some_and(|name| name == "target");
+            let built = path
+                .file_name()
+                .is_some_and(|name| name == "target" || name == "out");
             if path.is_dir() && !built {
                 open.push(path);
             } else if has_extension(&path, extensions) {

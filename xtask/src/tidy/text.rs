@@ -1,5 +1,6 @@
 //! Text: blanks, line ends, paths of one machine, links.
 
+use crate::markdown;
 use std::path::Path;
 
 /// Beginnings of paths that exist on one machine only. Written in pieces, so that this file does not hold them.
@@ -30,14 +31,9 @@ pub(super) fn check(root: &Path, path: &str, text: &str) -> Vec<String> {
                 report(format!("names a path of one machine ({machine})"));
             }
         }
-        if path.ends_with(".md") {
-            for target in links(line) {
-                let directory = Path::new(path).parent().unwrap_or(Path::new(""));
-                if !root.join(directory).join(target).exists() {
-                    report(format!("links to {target}, which is not there"));
-                }
-            }
-        }
+    }
+    if path.ends_with(".md") {
+        found.extend(dead_links(root, path, text));
     }
     if !text.is_empty() && (!text.ends_with('\n') || text.ends_with("\n\n")) {
         found.push(format!("{path}: does not end in one line feed"));
@@ -45,13 +41,38 @@ pub(super) fn check(root: &Path, path: &str, text: &str) -> Vec<String> {
     found
 }
 
-/// Targets of Markdown links to files, without anchors.
-fn links(line: &str) -> impl Iterator<Item = &str> {
-    line.split("](").skip(1).filter_map(|rest| {
-        let target = rest.split([')', '#', ' ']).next()?;
-        let file = !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:");
-        file.then_some(target)
-    })
+/// Links of a page to files and places that are not there.
+fn dead_links(root: &Path, path: &str, text: &str) -> Vec<String> {
+    let page = root.join(path);
+    let directory = page.parent().unwrap_or(root);
+    let dead = |link: &markdown::Link| {
+        let target = if link.file.is_empty() {
+            page.clone()
+        } else {
+            directory.join(&link.file)
+        };
+        if !link.file.is_empty() && !target.exists() {
+            return Some(format!("links to {}, which is not there", link.file));
+        }
+        if link.anchor.is_empty() || target.extension().is_none_or(|e| e != "md") {
+            return None;
+        }
+        let there = if link.file.is_empty() {
+            markdown::anchors(text)
+        } else {
+            markdown::anchors(&std::fs::read_to_string(&target).ok()?)
+        };
+        (!there.contains(&link.anchor)).then(|| {
+            format!(
+                "links to {}#{}, which has no such heading",
+                link.file, link.anchor
+            )
+        })
+    };
+    let found = markdown::links(text).into_iter();
+    found
+        .filter_map(|link| Some(format!("{path}:{}: {}", link.line, dead(&link)?)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -74,11 +95,15 @@ mod tests {
     #[test]
     fn links_must_lead_somewhere() {
         let root = tempfile::tempdir().unwrap();
-        std::fs::write(root.path().join("b.md"), "x\n").unwrap();
-        let text = "[b](b.md#part) [c](c.md) ![d](https://example.org/d.svg) [e](#here)\n";
+        std::fs::write(root.path().join("b.md"), "# Part\n").unwrap();
+        let text = "# Here\n[b](b.md#part) [c](c.md) ![d](https://example.org/d.svg) [e](#here) [f](b.md#g) [h](#i)\n";
         assert_eq!(
             check(root.path(), "a.md", text),
-            ["a.md:1: links to c.md, which is not there"]
+            [
+                "a.md:2: links to c.md, which is not there",
+                "a.md:2: links to b.md#g, which has no such heading",
+                "a.md:2: links to #i, which has no such heading",
+            ]
         );
     }
 }

@@ -80,7 +80,7 @@ pub(crate) fn compare(fresh: &Path, kept: &Path, kinds: &[(&str, Kind)]) -> Resu
                     (Err(e), _) => vec![format!("fresh file is not JSON: {e}")],
                 }
             }
-            "svg" => words(&svg_texts(&fresh), &svg_texts(&kept), in_last_place),
+            "svg" => differences_of_drawings(&fresh, &kept),
             "csv" => words(&fresh, &kept, |new, old, _| tolerance.holds(new, old)),
             _ => {
                 let (fresh, kept) = (Page::split(&fresh), Page::split(&kept));
@@ -260,9 +260,14 @@ fn words(new: &str, old: &str, equal: impl Fn(f64, f64, usize) -> bool) -> Vec<S
     found
 }
 
-/// Differences of two texts: words must agree, numbers to one unit of the last place shown.
-pub(crate) fn differences_of_texts(new: &str, old: &str) -> Vec<String> {
-    words(new, old, in_last_place)
+/// Differences of two pages: words must agree, numbers to one unit of the last place shown; measured blocks are left out.
+pub(crate) fn differences_of_pages(new: &str, old: &str) -> Vec<String> {
+    words(&Page::split(new).plain, &Page::split(old).plain, in_last_place)
+}
+
+/// Differences of two SVG documents: of what they say in words.
+pub(crate) fn differences_of_drawings(new: &str, old: &str) -> Vec<String> {
+    words(&svg_texts(new), &svg_texts(old), in_last_place)
 }
 
 fn shortened(line: &str) -> String {

@@ -210,10 +210,10 @@ fn bode(study: &Study, identification: &Identification, [from, to]: [f64; 2]) ->
         Axis::log("Frequency", "rad/s").with_limits(from, to),
     );
     for (quantity, reference) in [
-        (3, "1 (m/s^{2})/rad"),
-        (4, "1 (m/s^{2})/rad"),
-        (5, "1 (m/s^{2})/rad"),
-        (1, "1 (rad/s)/rad"),
+        (3, "(m/s^{2})/rad"),
+        (4, "(m/s^{2})/rad"),
+        (5, "(m/s^{2})/rad"),
+        (1, "(rad/s)/rad"),
     ] {
         let Some(shown) = QUANTITIES.get(quantity) else {
             continue;

@@ -28,7 +28,7 @@ mod solved;
 mod study;
 mod tables;
 
-pub(crate) use check::differences_of_texts;
+pub(crate) use check::{END_OF_MEASURED, MEASURED, differences_of_drawings, differences_of_pages};
 pub(crate) use paper::read_json;
 
 use crate::error::Error;
@@ -132,7 +132,7 @@ impl Results {
         let (kept, kept_files) = if search {
             search::run(root, &study)?
         } else {
-            Kept::read(&root.join(KEPT))?
+            Kept::read(&root.join(KEPT), &study)?
         };
         let stale = kept.stale(root)?;
         // Neither needs the other's results: side by side.

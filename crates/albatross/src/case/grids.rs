@@ -5,7 +5,10 @@ use serde::Deserialize;
 
 /// A grid, or a range such as `"1001 THRU 1025"` or `"1001 THRU 1025 BY 2"`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "an entry of a list of grids is neither a number nor a range such as `1001 THRU 1025`"
+)]
 pub enum GridEntry {
     /// One grid.
     Id(u32),

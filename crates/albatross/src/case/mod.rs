@@ -5,6 +5,7 @@
 mod aerodynamics;
 mod grids;
 pub mod manoeuvre;
+mod numbers;
 
 pub use aerodynamics::{AerodynamicsCase, AvlVersion, LatticeCase, LiftSlopes, StripFileCase, SurfaceCase};
 pub use grids::{GridEntry, grid_list};
@@ -134,7 +135,10 @@ impl From<OnViolation> for albatross_modal::OnViolation {
 
 /// Which modes.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "modes is neither a whole number nor a list of mode numbers"
+)]
 pub enum ModeChoice {
     /// The lowest elastic modes.
     Lowest(usize),
@@ -144,7 +148,10 @@ pub enum ModeChoice {
 
 /// Damping of the modes.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "damping_ratio is neither a number nor a list of numbers"
+)]
 pub enum Damping {
     /// The same ratio for all.
     Uniform(f64),
@@ -324,7 +331,14 @@ impl BodeCase {
 /// Most frequencies of a response: each costs about 0.3 ms.
 const MOST_FREQUENCIES: usize = 100_000;
 /// Files that a run writes beside those of the manoeuvres.
-const RESULT_FILES: [&str; 5] = ["modes", "strips", "bode", "modes_elastic", "modes_rigid_body"];
+const RESULT_FILES: [&str; 6] = [
+    "modes",
+    "strips",
+    "bode",
+    "modes_elastic",
+    "modes_rigid_body",
+    "mode_shapes",
+];
 
 /// Method of integration where a manoeuvre names none.
 pub(crate) fn default_method() -> Method {
@@ -371,12 +385,6 @@ impl Case {
                     "add `mach = ...`",
                 );
             }
-            (Some(v), None) | (None, Some(v)) if !(v.is_finite() && v > 0.0) => {
-                return refuse(
-                    format!("the flight speed or Mach number is {v}"),
-                    "give a positive number",
-                );
-            }
             _ => {}
         }
         if let Err((message, cure)) = self.aerodynamics.check_source() {
@@ -391,18 +399,8 @@ impl Case {
                 "set results = \"solve\", or remove the table",
             );
         }
-        let dampings: &[f64] = match &self.structure.damping_ratio {
-            Damping::Uniform(xi) => std::slice::from_ref(xi),
-            Damping::PerMode(list) => list,
-        };
-        if let Some(xi) = dampings
-            .iter()
-            .find(|xi| !(xi.is_finite() && (0.0..1.0).contains(*xi)))
-        {
-            return refuse(
-                format!("damping_ratio is {xi}"),
-                "give a ratio of 0 or more and below 1, such as 0.01",
-            );
+        if let Some((message, cure)) = self.number_out_of_range() {
+            return refuse(message, &cure);
         }
         for surface in &self.aerodynamics.surfaces {
             for axis in std::iter::once(&surface.lra).chain(&surface.image_lra) {
@@ -417,21 +415,13 @@ impl Case {
                     );
                 }
             }
-            if !(surface.downwash_gradient.is_finite() && surface.downwash_gradient < 1.0) {
-                return refuse(
-                    format!(
-                        "surface `{}`: downwash_gradient is {}",
-                        surface.name, surface.downwash_gradient
-                    ),
-                    "give a number below 1",
-                );
-            }
         }
         let mut surfaces: Vec<&str> = self.aerodynamics.surfaces.iter().map(|s| s.name.trim()).collect();
         surfaces.sort_unstable();
-        if let Some(pair) = surfaces.windows(2).find(|w| w[0].eq_ignore_ascii_case(w[1])) {
+        let mut pairs = surfaces.iter().zip(surfaces.iter().skip(1));
+        if let Some((name, _)) = pairs.find(|(a, b)| a.eq_ignore_ascii_case(b)) {
             return refuse(
-                format!("surface `{}` is listed twice", pair[0]),
+                format!("surface `{name}` is listed twice"),
                 "list it once: its strips would count twice",
             );
         }
@@ -451,11 +441,8 @@ impl Case {
         }
         let mut names: Vec<&str> = self.variants.iter().map(|v| v.name.as_str()).collect();
         names.sort_unstable();
-        if let Some(pair) = names.windows(2).find(|w| w[0] == w[1]) {
-            return refuse(
-                format!("two variants are named `{}`", pair[0]),
-                "rename one of them",
-            );
+        if let Some((name, _)) = names.iter().zip(names.iter().skip(1)).find(|(a, b)| a == b) {
+            return refuse(format!("two variants are named `{name}`"), "rename one of them");
         }
         Ok(())
     }

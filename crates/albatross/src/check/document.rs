@@ -23,7 +23,7 @@ impl Document {
     fn new(text: &str, file: &str) -> Self {
         let mut lines = BTreeMap::new();
         if let Ok(table) = DeTable::parse(text) {
-            walk_table(table.get_ref(), "", text, &mut lines);
+            walk_table(table.get_ref(), "", &LineEnds::of(text), &mut lines);
         }
         Self {
             file: file.to_owned(),
@@ -67,7 +67,21 @@ impl Document {
     }
 }
 
-fn walk_table(table: &DeTable<'_>, path: &str, text: &str, lines: &mut BTreeMap<String, usize>) {
+/// Places of the line ends, so that the line of each key is found without reading the text again.
+struct LineEnds(Vec<usize>);
+
+impl LineEnds {
+    fn of(text: &str) -> Self {
+        Self(text.match_indices('\n').map(|(at, _)| at).collect())
+    }
+
+    /// Line from 1 of a byte.
+    fn line(&self, byte: usize) -> usize {
+        1 + self.0.partition_point(|&end| end < byte)
+    }
+}
+
+fn walk_table(table: &DeTable<'_>, path: &str, ends: &LineEnds, lines: &mut BTreeMap<String, usize>) {
     for (key, value) in table.iter() {
         let name = key.get_ref();
         let own = if path.is_empty() {
@@ -75,19 +89,19 @@ fn walk_table(table: &DeTable<'_>, path: &str, text: &str, lines: &mut BTreeMap<
         } else {
             format!("{path}.{name}")
         };
-        lines.insert(own.clone(), line(text, key.span().start));
-        walk_value(value.get_ref(), &own, text, lines);
+        lines.insert(own.clone(), ends.line(key.span().start));
+        walk_value(value.get_ref(), &own, ends, lines);
     }
 }
 
-fn walk_value(value: &DeValue<'_>, path: &str, text: &str, lines: &mut BTreeMap<String, usize>) {
+fn walk_value(value: &DeValue<'_>, path: &str, ends: &LineEnds, lines: &mut BTreeMap<String, usize>) {
     match value {
-        DeValue::Table(table) => walk_table(table, path, text, lines),
+        DeValue::Table(table) => walk_table(table, path, ends, lines),
         DeValue::Array(list) => {
             for (i, item) in list.iter().enumerate() {
                 let own = format!("{path}.{i}");
-                lines.insert(own.clone(), line(text, item.span().start));
-                walk_value(item.get_ref(), &own, text, lines);
+                lines.insert(own.clone(), ends.line(item.span().start));
+                walk_value(item.get_ref(), &own, ends, lines);
             }
         }
         _ => {}
@@ -180,7 +194,7 @@ fn cure(message: &str) -> &'static str {
         "add the structural damping as a ratio of critical, such as `damping_ratio = 0.01`; there is no default"
     } else if message.contains("missing field") {
         "add the key; docs/CASE.md describes each"
-    } else if message.contains("enum Damping") {
+    } else if message.contains("damping_ratio is neither") {
         "give a number such as 0.01, or a list of numbers, one for each mode"
     } else {
         "correct the line; docs/CASE.md describes every key"

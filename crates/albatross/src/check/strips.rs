@@ -170,7 +170,8 @@ fn one_axis(
     }
     let along = |y: f64, z: f64| ((y - first[1]) * dy + (z - first[2]) * dz) / length;
     let s: Vec<f64> = points.iter().map(|p| along(p[1], p[2])).collect();
-    if let Some(i) = s.windows(2).position(|w| w[1] - w[0] <= 1e-9 * length) {
+    let steps = || s.iter().zip(s.iter().skip(1));
+    if let Some(i) = steps().position(|(a, b)| b - a <= 1e-9 * length) {
         let id = |k: usize| grids.get(k).copied().unwrap_or_default();
         found.error(
             place,
@@ -190,11 +191,12 @@ fn one_axis(
             return;
         };
         let at = along(strip.y_le, z_le);
-        let k = s.windows(2).position(|w| at <= w[1]).unwrap_or(s.len() - 2);
-        let (Some(a), Some(b)) = (points.get(k), points.get(k + 1)) else {
+        let segments = || steps().zip(points.iter().zip(points.iter().skip(1)));
+        let here = segments().find(|((_, to), _)| at <= **to);
+        let Some(((from, to), (a, b))) = here.or_else(|| segments().next_back()) else {
             continue;
         };
-        let share = (at - s[k]) / (s[k + 1] - s[k]);
+        let share = (at - from) / (to - from);
         let x = a[0] + share * (b[0] - a[0]);
         let fraction = (x - x_le) / strip.chord;
         if !(0.0..=1.0).contains(&fraction) {

@@ -230,8 +230,12 @@ fn mass_file(files: &Files, mass: &MassProperties, found: &mut Findings) {
         );
         found.warning(place, what, cure);
     }
-    let cg: [f64; 3] =
-        std::array::from_fn(|k| items.iter().map(|i| i.mass * i.position[k]).sum::<f64>() / total);
+    let mut cg = [0.0; 3];
+    for item in &items {
+        for (cg, x) in cg.iter_mut().zip(item.position) {
+            *cg += item.mass * x / total;
+        }
+    }
     let apart = cg
         .iter()
         .zip(&mass.cg)

@@ -27,12 +27,12 @@ pub(super) fn check(subject: &Subject, files: &Files, found: &mut Findings) {
 fn extent(points: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for point in points {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
+        for ((low, high), at) in low.iter_mut().zip(&mut high).zip(point) {
+            *low = low.min(at);
+            *high = high.max(at);
         }
     }
-    std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0))
+    [high[0] - low[0], high[1] - low[1], high[2] - low[2]].map(|length| length.max(0.0))
 }
 
 /// Span of a geometry, mirror images included \[its unit\].

@@ -236,7 +236,7 @@ impl NeutralAircraft {
             file: file.to_owned(),
             source,
         };
-        let column = |values: &[f64]| Mat::from_fn(n, 1, |j, _| values[j]);
+        let column = |values: &[f64]| Mat::from_fn(n, 1, |j, _| values.get(j).copied().unwrap_or(f64::NAN));
         let coupling = |lift: Mat<f64>| {
             rigid_to_elastic(&strips, &shapes, &StripLoads::from_lift(lift), &self.reference())
                 .map_err(strip_error)
@@ -248,14 +248,9 @@ impl NeutralAircraft {
         let rigid_rows = strip_forces(&strips, &rigid_shapes, &shapes, &theory, Split::ApparentMass)
             .map_err(strip_error)?;
         // A strip without lift slope has no incidence worth of a control.
-        let worth = |j: usize| {
-            if s.cl_alpha[j] == 0.0 {
-                0.0
-            } else {
-                s.dcl_dde[j] / s.cl_alpha[j]
-            }
-        };
-        let control_incidence = Mat::from_fn(n, 1, |j, _| worth(j));
+        let worth = |(lift, slope): (&f64, &f64)| if *slope == 0.0 { 0.0 } else { lift / slope };
+        let worth: Vec<f64> = s.dcl_dde.iter().zip(&s.cl_alpha).map(worth).collect();
+        let control_incidence = column(&worth);
         let structure = Structure::modal(&m.mu, &m.omega, &m.xi).map_err(strip_error)?;
         let model = AeroelasticModel::try_new(
             structure,

@@ -7,6 +7,9 @@
     reason = "a test stops where it fails"
 )]
 
+mod damage;
 mod f25;
+mod faults;
 mod flight_f25;
 mod oracle;
+mod readers;

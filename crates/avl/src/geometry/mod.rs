@@ -64,13 +64,8 @@ impl Geometry {
 
 /// Each name once, where it first comes.
 fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
-    let mut out = Vec::new();
-    for name in names {
-        if !out.contains(&name) {
-            out.push(name);
-        }
-    }
-    out
+    let mut seen = std::collections::HashSet::new();
+    names.filter(|name| seen.insert(*name)).collect()
 }
 
 /// Vortex core radii of AVL 3.5x.

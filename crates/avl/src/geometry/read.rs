@@ -3,7 +3,9 @@
 use super::records::{Record, Records, Style};
 use super::{Airfoil, Body, CoreRadii, DragPolar, Geometry, Section, Spacing, Surface};
 use crate::error::{AvlError, Diagnostic};
+use crate::fortran::is_not_finite;
 use crate::source::Line;
+use std::collections::BTreeMap;
 
 /// What the keywords now refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +22,8 @@ pub(super) struct Reader<'a> {
     active: Active,
     /// Where each surface starts.
     headings: Vec<Line<'a>>,
-    /// Names of all controls, in the order in which they first come.
-    pub(super) control_names: Vec<String>,
+    /// Names of all controls, with their places in the order in which they first come.
+    pub(super) control_names: BTreeMap<String, usize>,
 }
 
 impl Geometry {
@@ -50,7 +52,7 @@ impl Geometry {
             geometry,
             active: Active::Nothing,
             headings: Vec::new(),
-            control_names: Vec::new(),
+            control_names: BTreeMap::new(),
         };
         // The line behind the header is the profile drag if it is a number.
         let mut pending = reader.records.read();
@@ -188,6 +190,11 @@ impl<'a> Reader<'a> {
             "BFIL" => self.body_file()?,
             "BSEC" => self.body_section(record)?,
             _ => {
+                let first = record.text.split_whitespace().next().unwrap_or_default();
+                if is_not_finite(first) {
+                    let expected = "a keyword, or the number CDp at the end of the header";
+                    return Err(record.line.bad_number(first, 0, "line", expected));
+                }
                 let message = format!(
                     "`{}` is no keyword: ignored, as AVL does",
                     crate::source::excerpt(record.text)

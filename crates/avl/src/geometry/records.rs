@@ -1,7 +1,7 @@
 //! Lines of a geometry file as AVL takes them: comments dropped, numbers read in one of two ways.
 
 use crate::error::{AvlError, Diagnostic};
-use crate::fortran::{Item, items};
+use crate::fortran::{Item, is_not_finite, items};
 use crate::source::{Line, Source};
 
 /// A line with something on it, without leading blanks and without what follows `!`.
@@ -107,7 +107,7 @@ impl<'a> Records<'a> {
                     has_repeats |= repeat > 1;
                     out.extend(std::iter::repeat_n(value, repeat.min(most - out.len())));
                 }
-                Item::Word(word) if out.len() < least => {
+                Item::Word(word) if out.len() < least || is_no_number(word) => {
                     let column = record.line.text.find(word).unwrap_or(0);
                     return Err(record.line.bad_number(word, column, keyword, "a number"));
                 }
@@ -175,6 +175,12 @@ impl<'a> Records<'a> {
                 .syntax(format!("a number of elements for {keyword}, not {value}")))
         }
     }
+}
+
+/// Whether a word is what programs print in the place of a number that is none: `NaN`, `inf`, stars. Where a number may
+/// stand it is never a remark.
+fn is_no_number(word: &str) -> bool {
+    is_not_finite(word) || (!word.is_empty() && word.bytes().all(|b| b == b'*'))
 }
 
 /// Whether one of the first `most` values is left empty between commas.

@@ -195,13 +195,15 @@ impl<'a> Reader<'a> {
             sgn_dup: value(5, 1.0),
             name: name.clone(),
         };
-        if !self.control_names.contains(&name) {
-            if let Some(longer) = self.control_names.iter().find(|known| known.starts_with(&name)) {
+        if !self.control_names.contains_key(&name) {
+            let longer = self.control_names.range(name.clone()..);
+            let longer = longer.take_while(|(known, _)| known.starts_with(&name));
+            if let Some((first, _)) = longer.min_by_key(|(_, place)| **place) {
                 let message =
-                    format!("AVL up to 3.40 takes `{name}` for `{longer}`, whose first letters are the same");
+                    format!("AVL up to 3.40 takes `{name}` for `{first}`, whose first letters are the same");
                 self.records.remark(&line, "CONTROL", message);
             }
-            self.control_names.push(name);
+            self.control_names.insert(name, self.control_names.len());
         }
         if let Some(section) = self.section() {
             section.controls.push(control);

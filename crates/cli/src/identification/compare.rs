@@ -3,7 +3,8 @@
 use super::args::{CompareOptions, InitialChoice};
 use super::system::{SeenPole, System, conversion, names};
 use super::{figures, json, records, tables};
-use crate::output::{Failure, Gathered, print, print_json, remark};
+use crate::gathered::Gathered;
+use crate::output::{Failure, print, print_json, remark};
 use albatross::lti::Signal;
 use albatross::numerics::C64;
 use albatross::report::plot::{Axis, BodeChannel, BodeCurve, BodePlot, Marker, ScatterPlot, Series, Style};
@@ -488,8 +489,7 @@ impl WithReference {
     }
 
     fn bode(&self, model: &System) -> Result<String, ReportError> {
-        let files = [self.name.as_str(), model.name.as_str()];
-        let short = figures::short_names(&files);
+        let short = figures::short_pair([&self.name, &model.name]);
         let mut plot = BodePlot::new(
             format!("Response to {}", self.input.name),
             Axis::log("Frequency", "rad/s"),
@@ -516,8 +516,7 @@ impl WithReference {
 
     /// Both sets of poles; matched ones are joined by a line.
     fn pole_map(&self, model: &System) -> Result<String, ReportError> {
-        let files = [self.name.as_str(), model.name.as_str()];
-        let short = figures::short_names(&files);
+        let short = figures::short_pair([&self.name, &model.name]);
         let matching = &self.matching;
         let pairs = matching.pairs.iter();
         let mut reference: Vec<(f64, f64)> =

@@ -41,15 +41,22 @@ pub(crate) fn ratio(output: &Signal, input: &Signal) -> String {
 
 /// File names of records where they tell them apart.
 pub(crate) fn short_names<'a>(names: &[&'a str]) -> Vec<&'a str> {
-    let file = |name: &'a str| {
-        Path::new(name)
-            .file_name()
-            .and_then(|f| f.to_str())
-            .unwrap_or(name)
-    };
-    let short: Vec<&'a str> = names.iter().map(|name| file(name)).collect();
-    let unique = (1..short.len()).all(|i| !short[..i].contains(&short[i]));
+    let short: Vec<&'a str> = names.iter().map(|name| file_name(name)).collect();
+    let mut sorted = short.clone();
+    sorted.sort_unstable();
+    let unique = sorted.iter().zip(sorted.iter().skip(1)).all(|(a, b)| a != b);
     if unique { short } else { names.to_vec() }
+}
+
+/// The same of two models.
+pub(crate) fn short_pair(names: [&str; 2]) -> [&str; 2] {
+    let short = names.map(file_name);
+    if short[0] == short[1] { names } else { short }
+}
+
+fn file_name(path: &str) -> &str {
+    let name = Path::new(path).file_name().and_then(|f| f.to_str());
+    name.unwrap_or(path)
 }
 
 fn panel_of(signal: &Signal) -> Panel {

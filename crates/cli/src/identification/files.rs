@@ -3,7 +3,8 @@
 use super::identify::Identified;
 use super::search::Searched;
 use super::{figures, tables};
-use crate::output::{Failure, Gathered};
+use crate::gathered::Gathered;
+use crate::output::Failure;
 use serde_json::Value;
 use std::path::Path;
 

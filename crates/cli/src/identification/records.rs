@@ -35,7 +35,11 @@ pub(crate) fn read_files(
     sampling: &SamplingOptions,
     quiet: bool,
 ) -> Result<Records, Failure> {
-    if let Some((i, file)) = files.iter().enumerate().find(|(i, f)| files[..*i].contains(f)) {
+    if let Some((i, file)) = files
+        .iter()
+        .enumerate()
+        .find(|(i, f)| files.iter().take(*i).any(|g| g == *f))
+    {
         return Err(Failure::Other(format!(
             "{} is given twice (record {}): name every record once",
             file.display(),
@@ -45,7 +49,7 @@ pub(crate) fn read_files(
     if let Some((_, name)) = outputs
         .iter()
         .enumerate()
-        .find(|(i, o)| outputs[..*i].contains(o))
+        .find(|(i, o)| outputs.iter().take(*i).any(|p| p == *o))
     {
         return Err(Failure::Other(format!(
             "the output `{name}` is given twice: name every output once"
@@ -60,13 +64,15 @@ pub(crate) fn read_files(
     let mut experiments = Vec::new();
     let mut trim = Vec::new();
     let mut signals: Option<(Signal, Vec<Signal>)> = None;
+    let mut reference = None;
     for file in files {
+        let reference = *reference.get_or_insert(file);
         let (mut experiment, input, outputs) = read_record(file, &columns)?;
         trim.push(remove_trim(&mut experiment, sampling.detrend.into()));
         experiments.push(experiment);
         match &signals {
             None => signals = Some((input, outputs)),
-            Some(first) => same_units(&files[0], first, file, &(input, outputs))?,
+            Some(first) => same_units(reference, first, file, &(input, outputs))?,
         }
     }
     let (input, outputs) = signals.ok_or_else(|| Failure::Other("no records are given".into()))?;

@@ -154,17 +154,18 @@ impl Searched {
         for candidate in &self.search.candidates {
             let Some(score) = candidate.score else { continue };
             let key = (candidate.training, candidate.poles - candidate.zeros);
-            let place = curves
-                .iter()
-                .position(|(known, ..)| *known == key)
-                .unwrap_or_else(|| {
-                    curves.push((key, Vec::new(), Vec::new()));
-                    curves.len() - 1
-                });
-            curves[place].1.push(candidate.poles as f64);
-            curves[place].2.push(score);
+            let poles = candidate.poles as f64;
+            match curves.iter_mut().find(|(known, ..)| *known == key) {
+                Some((_, x, y)) => {
+                    x.push(poles);
+                    y.push(score);
+                }
+                None => curves.push((key, vec![poles], vec![score])),
+            }
         }
-        let excesses = curves.iter().any(|((_, excess), ..)| *excess != curves[0].0.1);
+        let excesses = curves
+            .iter()
+            .any(|((_, excess), ..)| Some(*excess) != curves.first().map(|c| c.0.1));
         // A failed order would hide the differences between good ones.
         let best = curves.iter().flat_map(|(.., y)| y).copied().fold(0.0, f64::max);
         let worst = curves.iter().flat_map(|(.., y)| y).copied().fold(best, f64::min);

@@ -1,11 +1,11 @@
 //! Models as files: an identified model, or a state space.
 
 use crate::output::Failure;
+use albatross::linear::{self, LinearModel};
 use albatross::lti::{self, FrequencySolver, Method, Signal, StateSpace};
 use albatross::numerics::{C64, eigen};
 use albatross::sysid::estimate::InitialCondition;
 use albatross::sysid::{DataSet, Model, Simulated, nrmse_fit, simulate_records};
-use serde_json::Value;
 use std::path::Path;
 
 /// A linear model read from a file.
@@ -35,40 +35,10 @@ impl System {
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
         let name = file.display().to_string();
         let text = crate::output::read_text(file)?;
-        let malformed = |line: usize, message: String| {
-            Failure::Albatross(albatross::Error::Table {
-                file: name.clone(),
-                line,
-                message,
-                expected: "the JSON of `identify` or of a state space, as docs/FORMATS.md describes".into(),
-            })
-        };
-        let value: Value = serde_json::from_str(&text).map_err(|e| malformed(e.line(), e.to_string()))?;
-        let initial = match value.get("initial_condition").and_then(Value::as_str) {
-            Some("estimate") => Some(InitialCondition::Estimate),
-            Some("zero") => Some(InitialCondition::Zero),
-            _ => None,
-        };
-        let has = |v: &Value, key: &str| v.get(key).is_some();
-        let form = if has(&value, "blocks") {
-            Form::Identified(model(value).map_err(|e| malformed(0, e))?)
-        } else if value.get("model").is_some_and(|m| has(m, "blocks")) {
-            let inner = value.get("model").cloned().unwrap_or_default();
-            Form::Identified(model(inner).map_err(|e| malformed(0, e))?)
-        } else if ["a", "b", "c", "d"].iter().all(|key| has(&value, key)) {
-            Form::StateSpace(serde_json::from_value(value).map_err(|e| malformed(0, e.to_string()))?)
-        } else {
-            let keys: Vec<&str> = value
-                .as_object()
-                .into_iter()
-                .flat_map(|map| map.keys().map(String::as_str).take(8))
-                .collect();
-            let found = if keys.is_empty() {
-                "no object".to_owned()
-            } else {
-                format!("an object with the keys {}", keys.join(", "))
-            };
-            return Err(malformed(0, found));
+        let linear::LinearFile { model, initial } = linear::parse(&text, &name)?;
+        let form = match model {
+            LinearModel::Identified(model) => Form::Identified(model),
+            LinearModel::StateSpace(system) => Form::StateSpace(system),
         };
         Ok(Self { name, form, initial })
     }
@@ -211,24 +181,6 @@ impl System {
 pub(crate) fn poles_of(model: &Model) -> Vec<SeenPole> {
     let poles = model.poles().into_iter().filter(|p| p.im >= 0.0);
     poles.map(|value| SeenPole { value, share: 1.0 }).collect()
-}
-
-/// A model whose lists have the lengths that its order asks for.
-fn model(value: Value) -> Result<Model, String> {
-    let model: Model = serde_json::from_value(value).map_err(|e| e.to_string())?;
-    let (order, outputs) = (model.order(), model.outputs.len());
-    let fits = model.coefficients.len() == outputs
-        && model.direct.len() == outputs
-        && model.coefficients.iter().all(|c| c.len() == order);
-    if fits && outputs > 0 && order > 0 {
-        Ok(model)
-    } else {
-        Err(format!(
-            "a model with {order} poles and {outputs} outputs, but {} lists of coefficients of lengths {:?}",
-            model.coefficients.len(),
-            model.coefficients.iter().map(Vec::len).collect::<Vec<_>>()
-        ))
-    }
 }
 
 /// States from which on one eigen-decomposition is cheaper than factors at every frequency.

@@ -101,8 +101,7 @@ pub(crate) fn poles(estimate: &Estimate) -> Result<Table, ReportError> {
         .to_vec();
         if mode.im == 0.0 {
             // The damping ratio of a real pole is 1.
-            cells[4] = Cell::EMPTY;
-            cells[5] = Cell::EMPTY;
+            cells.iter_mut().skip(4).take(2).for_each(|c| *c = Cell::EMPTY);
         }
         cells.extend(mode.residues.iter().map(|r| Cell::from(r.modulus / r.sd_modulus)));
         cells.push(Cell::from(if mode.identified { "yes" } else { "no" }));

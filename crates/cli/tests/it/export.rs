@@ -120,7 +120,7 @@ fn complex(re: &Value, im: &Value) -> Vec<C64> {
         .collect()
 }
 
-/// The figure: eigenvalues that another program finds in its file are ours to 1e-12 of their modulus, absolutely
+/// Eigenvalues that another program finds in its file are ours to 1e-12 of their modulus, absolutely
 /// below 1 rad/s, each taken once.
 fn same_eigenvalues(system: &StateSpace, mut found: Vec<C64>) {
     let ours = eigen::eigenvalues(system.a.as_ref()).unwrap();

@@ -4,9 +4,11 @@
 
 mod case_page;
 mod check;
+mod determinism;
 mod export;
 mod formats_page;
 mod identify;
+mod killed;
 mod options;
 mod report;
 mod solvers;
@@ -73,6 +75,7 @@ fn val_run_writes_every_result() {
         "doublet_3Hz.csv",
         "doublet_3Hz.svg",
         "root_locus.json",
+        "mode_shapes.svg",
         "report.html",
     ] {
         assert!(std::fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");

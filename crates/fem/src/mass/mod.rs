@@ -65,7 +65,7 @@ impl DeckMass {
         mass.left_out_by_elements.clone_from(&mass.other);
         mass.left_out_by_elements.extend(other::bush_masses(deck));
         mass.other.extend(other::masses(deck));
-        scale(&mut mass.model, deck.weight_to_mass())?;
+        scale(&mut mass.model, weight_to_mass(deck)?)?;
         Ok(mass)
     }
 
@@ -116,6 +116,17 @@ fn concentrated(context: &Context<'_>, model: &mut MassModel) -> Result<(), Erro
         model.add(conm2.grid, grid.position, &block);
     }
     Ok(())
+}
+
+/// The factor of PARAM,WTMASS. The deck takes a value that is no number for none; here that would be a silent 1.
+fn weight_to_mass(deck: &Deck) -> Result<f64, Error> {
+    match deck.param("WTMASS") {
+        Some(param) if param.as_real().is_none() => Err(Error::BadMass {
+            card: "PARAM WTMASS".into(),
+            problem: format!("its value is `{}`; it must be a positive number", param.value),
+        }),
+        _ => Ok(deck.weight_to_mass()),
+    }
 }
 
 fn scale(model: &mut MassModel, weight_to_mass: f64) -> Result<(), Error> {

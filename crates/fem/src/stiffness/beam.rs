@@ -10,6 +10,8 @@
 //! exact for any taper (Przemieniecki, Theory of Matrix Structural Analysis, 1968, ch. 5; the integral by Gauss's rule
 //! between stations), and `K_BB = f^-1`; the rest follows from rigid motion, `K = [E -1]^T K_BB [E -1]`, where E
 //! carries the motion of A to B. Rigid motion therefore costs no energy, whatever the section.
+//!
+//! Equations: THEORY (40), (41).
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
 

@@ -126,6 +126,48 @@ fn val_divergence() {
     }
 }
 
+/// At the divergence speed itself, where `K - q Q` is singular to the last bit or nearly so, on both sides of it: the
+/// error names the speed; a neighbour below may trim, with finite numbers, or say that it did not converge.
+#[test]
+fn val_exactly_at_divergence() {
+    let soft = Elasticity {
+        omega_rad_s: vec![6.0, 18.0],
+        ..two_modes()
+    };
+    let aircraft = flexible(&soft);
+    let at = |speed: f64| {
+        let point = FlightPoint { speed, ..cruise() };
+        trim(&aircraft, ModelOptions::default(), &point).map(|(_, t)| t)
+    };
+    let Err(Error::Divergence { divergence_speed, .. }) = at(150.0) else {
+        panic!("no divergence at 150 m/s");
+    };
+    let mut refused = 0;
+    for units in -4..=4_i64 {
+        // Neighbours in the last place.
+        let speed = f64::from_bits(divergence_speed.to_bits().strict_add_signed(units));
+        match at(speed) {
+            Err(Error::Divergence { speed: s, .. }) => {
+                assert_eq!(s, speed);
+                refused += 1;
+            }
+            Err(Error::TrimNotConverged { .. }) => {}
+            Err(other) => panic!("{units}: {other}"),
+            Ok(t) => assert!(
+                units < 0 && t.alpha_rad.is_finite() && t.eta.iter().all(|e| e.is_finite()),
+                "{units}"
+            ),
+        }
+    }
+    assert!(refused >= 4, "{refused}");
+    for factor in [1.0, 1.0 + 1e-12, 1.0 + 1e-6, 2.0, 10.0] {
+        let found = at(divergence_speed * factor);
+        assert!(matches!(found, Err(Error::Divergence { .. })), "{factor}");
+    }
+    let slower = at(divergence_speed * 0.9);
+    assert!(!matches!(slower, Err(Error::Divergence { .. })), "{slower:?}");
+}
+
 type Spoil = (&'static str, fn(&mut Aircraft));
 
 /// One NaN or unusable number anywhere in the data is named.

@@ -16,6 +16,8 @@ pub(super) struct Assembler {
     /// The card before, for replication, and the last replication line.
     previous: Card,
     pattern: Option<Card>,
+    /// What replication has made so far, in bytes.
+    replicated: usize,
     /// Cards whose field 10 has a mark that the next line does not answer, by mark.
     waiting: HashMap<Vec<u8>, Card>,
     /// Continuations that no card has asked for yet, by their own mark.
@@ -37,7 +39,13 @@ impl Assembler {
         }
         self.flush(builder);
         if line.head.first() == Some(&b'=') {
-            match replicate::expand(line, file, number, &self.previous, &mut self.pattern) {
+            let Self {
+                previous,
+                pattern,
+                replicated,
+                ..
+            } = self;
+            match replicate::expand(line, file, number, previous, pattern, replicated) {
                 Ok(cards) => {
                     for card in cards {
                         builder.card(&card);

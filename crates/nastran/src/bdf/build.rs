@@ -45,6 +45,10 @@ struct Tables {
     eigrl: Table<crate::deck::Eigrl>,
 }
 
+/// Members that the ranges of a deck may have in all, and one more for each byte of the deck: a range of a few bytes would
+/// else stand for ten thousand numbers, and a small file fill the memory.
+const RANGE_MEMBERS: usize = 1_000_000;
+
 pub(super) struct Builder {
     files: Vec<Arc<str>>,
     remarks: Remarks,
@@ -59,6 +63,8 @@ pub(super) struct Builder {
     beam_defaults: BarDefaults,
     /// Cards with long ranges, which wait until all points are known.
     deferred: Vec<Card>,
+    /// How many members ranges may still have.
+    ranges_left: usize,
 }
 
 impl Builder {
@@ -74,7 +80,13 @@ impl Builder {
             bar_defaults: BarDefaults::default(),
             beam_defaults: BarDefaults::default(),
             deferred: Vec::new(),
+            ranges_left: RANGE_MEMBERS,
         }
+    }
+
+    /// The more a deck holds, the more its ranges may mean.
+    pub(super) fn allow_for(&mut self, text: &[u8]) {
+        self.ranges_left = self.ranges_left.saturating_add(text.len());
     }
 
     pub(super) fn file(&self, index: u32) -> &str {
@@ -107,7 +119,7 @@ impl Builder {
 
     fn interpret(&mut self, card: &Card, known: Option<&[Id]>) -> Result<(), NeedsPoints> {
         let file = self.files.get(card.file as usize).map_or("", |f| f);
-        let mut fields = Fields::new(card, file, &mut self.remarks);
+        let mut fields = Fields::new(card, file, &mut self.remarks, &mut self.ranges_left);
         let f = &mut fields;
         let t = &mut self.tables;
         let deck = &mut self.deck;

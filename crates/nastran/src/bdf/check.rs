@@ -53,6 +53,7 @@ pub(super) fn references(deck: &Deck, main_file: &str, remarks: &mut Remarks) {
         others: uninterpreted(deck),
         remarks,
     };
+    check.points();
     check.systems();
     check.bars();
     check.masses();
@@ -83,6 +84,19 @@ impl Checker<'_> {
         };
         self.remarks
             .push(Severity::Error, &file, line, format!("{card} {id}"), message);
+    }
+
+    /// Grids and scalar points are numbered together.
+    fn points(&mut self) {
+        for &id in &self.deck.scalar_points {
+            if self.grids.contains(id) {
+                self.missing(
+                    "SPOINT",
+                    id,
+                    "is a GRID of the deck too; give one of them another number".into(),
+                );
+            }
+        }
     }
 
     fn grid(&mut self, card: &str, id: Id, field: &str, grid: Id) {

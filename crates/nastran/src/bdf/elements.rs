@@ -167,7 +167,10 @@ pub(super) fn conm1(f: &mut Fields<'_>) -> (Id, Conm1) {
     let id = f.id(1, "EID");
     let (grid, cid) = (f.id(2, "G"), f.id_or_zero(3, "CID").unwrap_or(0));
     let lower: [f64; 21] = std::array::from_fn(|k| f.real_or(4 + k, "M", 0.0));
-    let term = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+    let term = |i: usize, j: usize| {
+        let k = i.max(j) * (i.max(j) + 1) / 2 + i.min(j);
+        lower.get(k).copied().unwrap_or(0.0)
+    };
     let mass = std::array::from_fn(|i| std::array::from_fn(|j| term(i, j)));
     f.ends_at(24);
     (id, Conm1 { id, grid, cid, mass })

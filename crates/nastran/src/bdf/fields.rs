@@ -12,16 +12,24 @@ pub(super) struct Fields<'a> {
     pub(super) card: &'a Card,
     file: &'a str,
     remarks: &'a mut Remarks,
+    /// How many members ranges may still have in this deck.
+    pub(super) ranges_left: &'a mut usize,
     /// A field could not be read.
     pub(super) failed: bool,
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn new(card: &'a Card, file: &'a str, remarks: &'a mut Remarks) -> Self {
+    pub(super) fn new(
+        card: &'a Card,
+        file: &'a str,
+        remarks: &'a mut Remarks,
+        ranges_left: &'a mut usize,
+    ) -> Self {
         Self {
             card,
             file,
             remarks,
+            ranges_left,
             failed: false,
         }
     }

@@ -1,6 +1,7 @@
 //! Lists of numbers with ranges: `1, 2, 5 THRU 20 BY 5 EXCEPT 10`.
 
 use crate::deck::Id;
+use crate::error::Severity;
 
 use super::fields::Fields;
 
@@ -49,13 +50,18 @@ impl Fields<'_> {
             if self.is_word(at, last, b"EXCEPT") {
                 at = self.exceptions(at + 1, last, first..=end, &mut except);
             }
+            let before = members.len();
+            if *self.ranges_left == 0 {
+                self.remark(
+                    Severity::Error,
+                    "the ranges of the deck have more members in all than a deck of its size can mean; narrow them",
+                );
+            }
             if self.failed {
                 return Ok(members);
             }
             let in_range = |id: &Id| {
-                (first..=end).contains(id)
-                    && (id - first).is_multiple_of(step)
-                    && except.binary_search(id).is_err()
+                (first..=end).contains(id) && (id - first).is_multiple_of(step) && !is_in(&except, *id)
             };
             if end - first <= EXPANDED {
                 members.extend((first..=end).filter(in_range));
@@ -74,18 +80,19 @@ impl Fields<'_> {
                         .filter(in_range),
                 );
             }
+            *self.ranges_left = self.ranges_left.saturating_sub(members.len() - before);
         }
         Ok(members)
     }
 
     /// Numbers after EXCEPT that lie in the range, themselves perhaps ranges. The first number outside the range
-    /// belongs to the list again. Returns the field after the exceptions, which come out sorted.
+    /// belongs to the list again. Returns the field after the exceptions, which come out sorted and apart.
     fn exceptions(
         &mut self,
         mut at: usize,
         last: usize,
         range: std::ops::RangeInclusive<Id>,
-        except: &mut Vec<Id>,
+        except: &mut Vec<(Id, Id)>,
     ) -> usize {
         at = self.skip_blanks(at, last);
         while at <= last && !self.failed {
@@ -100,13 +107,16 @@ impl Fields<'_> {
                 end = self.id(at, "end of THRU").min(*range.end());
                 at = self.skip_blanks(at + 1, last);
             }
-            if end.saturating_sub(first) > 100 * EXPANDED {
-                self.wrong(at.min(last), "EXCEPT", "a shorter range of exceptions");
-                break;
-            }
-            except.extend(first..=end);
+            except.push((first, end));
         }
         except.sort_unstable();
+        except.dedup_by(|next, kept| {
+            let overlaps = next.0 <= kept.1;
+            if overlaps {
+                kept.1 = kept.1.max(next.1);
+            }
+            overlaps
+        });
         at
     }
 
@@ -122,6 +132,15 @@ impl Fields<'_> {
     }
 }
 
+/// Whether a number lies in one of the ranges, which are sorted and apart.
+fn is_in(ranges: &[(Id, Id)], id: Id) -> bool {
+    let after = ranges.partition_point(|r| r.0 <= id);
+    after
+        .checked_sub(1)
+        .and_then(|k| ranges.get(k))
+        .is_some_and(|r| id <= r.1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::card::{BulkLine, Card};
@@ -132,7 +151,8 @@ mod tests {
         let mut card = Card::default();
         card.start(&BulkLine::new(format!("SET1,{text}").as_bytes(), true), 0, 1);
         let mut remarks = Remarks::default();
-        let mut fields = Fields::new(&card, "test", &mut remarks);
+        let mut ranges_left = 1000;
+        let mut fields = Fields::new(&card, "test", &mut remarks, &mut ranges_left);
         let members = fields.list(1, card.last(), points).ok()?;
         (!fields.failed).then_some(members)
     }
@@ -146,6 +166,10 @@ mod tests {
         assert_eq!(
             list("1,THRU,10,EXCEPT,5,THRU,7,9,77", None),
             Some(vec![1, 2, 3, 4, 8, 10, 77])
+        );
+        assert_eq!(
+            list("1,THRU,9,EXCEPT,2,THRU,4,3,THRU,6,6,8", None),
+            Some(vec![1, 7, 9])
         );
         assert_eq!(list("10,THRU,20,BY,4,3", None), Some(vec![10, 14, 18, 3]));
         assert_eq!(list("7,,,9", None), Some(vec![7, 9]));

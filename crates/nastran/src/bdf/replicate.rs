@@ -6,16 +6,21 @@ use crate::number;
 
 use super::card::{BulkLine, Card};
 
-/// Cards made at once by one line; more are taken for a mistake.
-const MOST: i64 = 1_000_000;
+/// What replication may make of a deck, in bytes of fields: some 80 000 grids. More is taken for a mistake, since a line
+/// of a few bytes would fill the memory.
+const MOST: usize = 16 << 20;
+/// What a field takes beside its text.
+const FIELD: usize = 24;
 
-/// The cards that a line beginning with `=` makes from the card before it. `last_pattern` holds the last such line.
+/// The cards that a line beginning with `=` makes from the card before it. `last_pattern` holds the last such line,
+/// `made` what replication has made of the deck so far.
 pub(super) fn expand(
     line: &BulkLine<'_>,
     file: u32,
     number: u32,
     previous: &Card,
     last_pattern: &mut Option<Card>,
+    made: &mut usize,
 ) -> Result<Vec<Card>, String> {
     if previous.name().is_empty() {
         return Err("there is no card before it to repeat".into());
@@ -26,12 +31,13 @@ pub(super) fn expand(
     let count = head.trim_matches(|c| "=() ".contains(c));
     if count.is_empty() {
         let card = next(previous, &pattern)?;
+        count_in(&card, made)?;
         *last_pattern = Some(pattern);
         return Ok(vec![card]);
     }
     let count = number::integer(count.as_bytes())
-        .filter(|n| (1..=MOST).contains(n))
-        .ok_or_else(|| format!("{head:?} is no count; expected =(n) with n from 1 to {MOST}"))?;
+        .filter(|n| *n >= 1)
+        .ok_or_else(|| format!("{head:?} is no count; expected =(n) with n of 1 or more"))?;
     if pattern.last() == 0 {
         pattern = last_pattern
             .clone()
@@ -42,9 +48,24 @@ pub(super) fn expand(
     let mut cards: Vec<Card> = Vec::new();
     for _ in 0..count {
         let card = next(cards.last().unwrap_or(previous), &pattern)?;
+        count_in(&card, made)?;
         cards.push(card);
     }
     Ok(cards)
+}
+
+/// Refuses a card beyond what replication may make.
+fn count_in(card: &Card, made: &mut usize) -> Result<(), String> {
+    *made += (1..=card.len())
+        .map(|n| FIELD + card.field(n).len())
+        .sum::<usize>();
+    if *made > MOST {
+        return Err(format!(
+            "makes more than {} MB of cards in all; write them out if they are meant",
+            MOST >> 20
+        ));
+    }
+    Ok(())
 }
 
 /// One card from the one before and the pattern.

@@ -11,6 +11,8 @@ use super::include::{self, IncludeStatement, Included, Progress};
 
 /// Files within files; deeper nesting than this is taken for a mistake.
 const DEEPEST_INCLUDE: usize = 32;
+/// Files that may be included in all. Files that include others twice would double at every level.
+const MOST_INCLUDES: usize = 10_000;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Section {
@@ -29,6 +31,8 @@ pub(super) struct DeckReader<'r> {
     case_control: Vec<String>,
     /// Files being read, the main file first.
     open: Vec<u32>,
+    /// How many files were included so far.
+    included: usize,
     assembler: Assembler,
     builder: Builder,
     /// Buffer for a line with tabs expanded.
@@ -43,6 +47,7 @@ impl<'r> DeckReader<'r> {
             executive: Vec::new(),
             case_control: Vec::new(),
             open: vec![0],
+            included: 0,
             assembler: Assembler::default(),
             builder: Builder::new(name),
             expanded: Vec::with_capacity(128),
@@ -73,6 +78,7 @@ impl<'r> DeckReader<'r> {
     }
 
     fn file(&mut self, text: &[u8], file: u32) {
+        self.builder.allow_for(text);
         let mut lines = Lines::new(text);
         let mut statement: Option<(IncludeStatement, u32)> = None;
         while let Some(line) = lines.next() {
@@ -128,6 +134,23 @@ impl<'r> DeckReader<'r> {
                 "names no file; expected INCLUDE 'path'",
             );
         }
+        if self.included >= MOST_INCLUDES {
+            // Said once: what is not followed may be more yet.
+            if self.included == MOST_INCLUDES {
+                self.included += 1;
+                self.remark(
+                    Severity::Error,
+                    file,
+                    line,
+                    "INCLUDE",
+                    format!(
+                        "{path:?} is more than {MOST_INCLUDES} included files; no further one is followed"
+                    ),
+                );
+            }
+            return;
+        }
+        self.included += 1;
         let included = match (self.resolve)(path, self.builder.file(file)) {
             Ok(included) => included,
             Err(reason) => {

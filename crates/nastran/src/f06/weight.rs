@@ -137,11 +137,11 @@ impl WeightReader {
     pub(super) fn finish(self) -> Result<GridPointWeight, usize> {
         let mut mo: [[f64; 6]; 6] = self.mo.as_slice().try_into().map_err(|_| self.mo.len())?;
         // MYSTRAN leaves the lower left block zero.
-        if (3..6).all(|i| (0..3).all(|j| mo[i][j] == 0.0)) {
+        if mo.iter().skip(3).all(|row| row.iter().take(3).all(|m| *m == 0.0)) {
             let upper = mo;
             for (i, row) in mo.iter_mut().enumerate().skip(3) {
-                for (j, term) in row.iter_mut().enumerate().take(3) {
-                    *term = upper[j][i];
+                for (term, mirrored) in row.iter_mut().zip(&upper).take(3) {
+                    *term = mirrored.get(i).copied().unwrap_or(0.0);
                 }
             }
         }

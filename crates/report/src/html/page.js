@@ -1,9 +1,8 @@
-// Draws what can be zoomed, turned and played, when it comes near the screen. Where that fails the drawings stay.
+// Puts what can be zoomed, turned and played in place of a drawing when it comes near the screen. Where that fails the
+// drawing stays.
 (function () {
   "use strict";
-  const root = document.documentElement;
   if (!window.Plotly || !window.IntersectionObserver) return;
-  root.classList.add("scripted");
 
   const coarse = window.matchMedia("(pointer: coarse)").matches;
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -11,21 +10,13 @@
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
   const read = (element) => JSON.parse(element.querySelector("script[type='application/json']").textContent);
 
-  // The drawing in place of what a browser cannot do.
-  function giveUp(element) {
-    const figure = element.closest("figure");
-    const live = figure && figure.querySelector(".live");
-    if (live) live.remove();
-    const drawing = figure && figure.querySelector(".still");
-    if (drawing) drawing.style.display = "block";
-  }
-
   function plot(element) {
     const figure = read(element);
     figure.layout.paper_bgcolor = figure.layout.plot_bgcolor = "#fff";
     // A finger that scrolls the page must not zoom.
     figure.layout.dragmode = coarse ? false : "zoom";
     const place = document.createElement("div");
+    place.style.minHeight = figure.layout.height + "px";
     element.appendChild(place);
     return window.Plotly.newPlot(place, figure.data, figure.layout, config);
   }
@@ -139,17 +130,28 @@
       .then(() => play(!still));
   }
 
+  function enliven(figure) {
+    const stay = () => figure.classList.remove("alive");
+    // Shown first: a plot takes the width of its place.
+    figure.classList.add("alive");
+    for (const element of figure.querySelectorAll(".plot, .shapes")) {
+      try {
+        const drawn = element.classList.contains("shapes") ? shapes(element) : plot(element);
+        drawn.catch(stay);
+      } catch (error) {
+        stay();
+      }
+    }
+  }
+
   const watcher = new IntersectionObserver((seen) => {
     for (const { target, isIntersecting } of seen) {
       if (!isIntersecting) continue;
       watcher.unobserve(target);
-      try {
-        const drawn = target.classList.contains("shapes") ? shapes(target) : plot(target);
-        drawn.catch(() => giveUp(target));
-      } catch (error) {
-        giveUp(target);
-      }
+      enliven(target);
     }
   }, { rootMargin: "600px 0px" });
-  document.querySelectorAll(".plot, .live.shapes").forEach((element) => watcher.observe(element));
+  document.querySelectorAll("figure").forEach((figure) => {
+    if (figure.querySelector(".live")) watcher.observe(figure);
+  });
 })();

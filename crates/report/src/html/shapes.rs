@@ -89,7 +89,16 @@ impl Shapes {
         })
     }
 
-    /// All shapes side by side from the front left above, at rest in grey, for print.
+    /// All shapes side by side as an SVG document, seen from the front left above, at rest in grey.
+    ///
+    /// # Errors
+    /// [`ReportError`] where points, lines, faces and displacements do not fit together.
+    pub fn render(&self) -> Result<String, ReportError> {
+        self.check()?;
+        Ok(self.still())
+    }
+
+    /// The drawing of [`Shapes::render`], of shapes that fit together.
     pub(super) fn still(&self) -> String {
         let (low, high) = bounds(&self.points);
         let size = low.iter().zip(&high).map(|(a, b)| b - a).fold(0.0, f64::max);

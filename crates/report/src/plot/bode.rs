@@ -44,7 +44,7 @@ pub struct BodeCurve {
 pub struct BodeChannel {
     /// Title above the diagram, such as `δ_{e} to a_{z}, cockpit`.
     pub title: String,
-    /// What 0 dB stands for, such as `1 (m/s^{2})/rad`; empty to leave it out.
+    /// What 0 dB stands for, such as `(m/s^{2})/rad`; empty to leave it out.
     pub magnitude_reference: String,
     /// Responses, from back to front.
     pub curves: Vec<BodeCurve>,

@@ -111,7 +111,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// Labels of guides: beside an upright line at the top, above a level line at the right.
+    /// Labels of guides: beside an upright line at the top, or at the bottom if fewer curves pass there; above a level
+    /// line at the right.
     fn guide_labels(&self, canvas: &mut Canvas) {
         for guide in self.panel.guides.iter().filter(|guide| !guide.label.is_empty()) {
             let ruler = if guide.on_x { self.x } else { self.y };
@@ -120,13 +121,18 @@ impl Drawing<'_> {
             };
             let half = 0.5 * theme::NOTE + 3.0;
             let (at, anchor) = if guide.on_x {
-                let (x, y) = self.window.at(part, 1.0);
-                let fits = x + 5.0 + text::width(&guide.label, theme::NOTE) < self.window.right();
-                if fits {
-                    ((x + 5.0, y + half), Anchor::Start)
+                let (x, top) = self.window.at(part, 1.0);
+                let (_, bottom) = self.window.at(part, 0.0);
+                let width = text::width(&guide.label, theme::NOTE);
+                let (x, anchor, left) = if x + 5.0 + width < self.window.right() {
+                    (x + 5.0, Anchor::Start, x + 5.0)
                 } else {
-                    ((x - 5.0, y + half), Anchor::End)
-                }
+                    (x - 5.0, Anchor::End, x - 5.0 - width)
+                };
+                let crowd = |y: f64| self.curves_in([left, left + width], [y - half, y + half]);
+                let (high, low) = (top + half, bottom - half);
+                let y = if crowd(low) < crowd(high) { low } else { high };
+                ((x, y), anchor)
             } else {
                 let (x, y) = self.window.at(1.0, part);
                 let above = y - half > self.window.top + half;
@@ -138,6 +144,31 @@ impl Drawing<'_> {
             };
             canvas.label(&label);
         }
+    }
+
+    /// How many series pass through a box of pixels.
+    fn curves_in(&self, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> usize {
+        let passes = |a: Point, b: Point| {
+            let (from, to) = (a.0.min(b.0).max(left), a.0.max(b.0).min(right));
+            if from > to {
+                return false;
+            }
+            let height = |x: f64| a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0);
+            let (one, other) = if a.0 == b.0 {
+                (a.1, b.1)
+            } else {
+                (height(from), height(to))
+            };
+            one.min(other) <= bottom && one.max(other) >= top
+        };
+        let series = self.panel.series.iter();
+        series
+            .filter(|series| {
+                let pixels = self.pixels(series);
+                let mut pairs = pixels.iter().zip(pixels.iter().skip(1));
+                pairs.any(|(a, b)| matches!((a, b), (Some(a), Some(b)) if passes(*a, *b)))
+            })
+            .count()
     }
 
     /// Rays of constant damping ratio ζ: s = ω (-ζ ± i √(1-ζ²)).

@@ -108,6 +108,25 @@ fn text_is_escaped_wherever_it_comes_from() {
 }
 
 #[test]
+fn the_label_of_a_guide_stands_where_no_curve_passes() {
+    let height = |level: f64| {
+        let mut plot = one_curve(&[0.0, 1.0], &[level, level]);
+        let panel = plot.panels.remove(0).with_guide_x(0.5, "paper");
+        plot.panels.push(panel);
+        plot.panels[0].y = Axis::new("y", "").with_limits(0.0, 1.0);
+        let svg = plot.render().unwrap().markup;
+        let before = svg.split(">paper<").next().unwrap();
+        let label = before.rsplit("<text").next().unwrap();
+        let y = label.split(" y=\"").nth(1).unwrap().split('"').next().unwrap();
+        y.parse::<f64>().unwrap()
+    };
+    // Top and bottom of the frame: pixels grow downwards.
+    let (over_a_low_curve, under_a_high_one) = (height(0.03), height(0.97));
+    assert!(over_a_low_curve + 50.0 < under_a_high_one);
+    assert_eq!(height(0.5), over_a_low_curve, "at the top if nothing is there");
+}
+
+#[test]
 fn val_a_peak_of_one_sample_is_drawn_where_it_is() {
     let x: Vec<f64> = (0..10_000).map(|i| 1e-3 * f64::from(i)).collect();
     let mut y: Vec<f64> = x.iter().map(|x| (20.0 * x).sin()).collect();

@@ -17,6 +17,10 @@ const WIDE_STEP: f64 = 0.12;
 /// Steps are not halved below this.
 const LEAST_STEP: f64 = 1e-3;
 const MOST_STATIONS: usize = 1500;
+/// Changes of side beyond this number are rounding, and to refine them all would take minutes.
+const MOST_BRACKETS: usize = 1000;
+/// Chords that differ by more make the range of wave numbers too long to be searched.
+const LARGEST_CHORD_RATIO: f64 = 1e6;
 /// Real parts below this share of the modulus are rounding.
 const NEUTRAL: f64 = 1e-10;
 
@@ -36,7 +40,7 @@ impl Station {
 
 /// Frequencies of roots that grow at the highest wave number, and brackets of all changes of side below it.
 pub(super) fn scan(modal: &ModalOperator, kernel: Kernel<'_>) -> Result<(Vec<f64>, Vec<Bracket>), Error> {
-    let mut stations = grid(&modal.operator.semi_chords)
+    let mut stations = grid(&modal.operator.semi_chords)?
         .into_iter()
         .map(|ln_kappa| Station::at(modal, kernel, ln_kappa))
         .collect::<Result<Vec<_>, _>>()?;
@@ -69,20 +73,36 @@ pub(super) fn scan(modal: &ModalOperator, kernel: Kernel<'_>) -> Result<(Vec<f64
             .collect()
     });
     at_rest.sort_by(f64::total_cmp);
-    let brackets = stations
+    let brackets: Vec<Bracket> = stations
         .windows(2)
         .flat_map(|pair| match pair {
             [a, b] => changes_of_side(a, b),
             _ => Vec::new(),
         })
         .collect();
+    if brackets.len() > MOST_BRACKETS {
+        return Err(Error::BadOption {
+            option: "the number of wave numbers at which a root changes its side of the imaginary axis",
+            value: brackets.len() as f64,
+            expected: "at most 1000: more is rounding; check the units of lift slopes, masses and frequencies",
+        });
+    }
     Ok((at_rest, brackets))
 }
 
 /// Logarithms of the wave numbers to start with, descending.
-fn grid(semi_chords: &[f64]) -> Vec<f64> {
+fn grid(semi_chords: &[f64]) -> Result<Vec<f64>, Error> {
     let narrowest = semi_chords.iter().copied().fold(f64::INFINITY, f64::min);
     let widest = semi_chords.iter().copied().fold(0.0, f64::max);
+    let ratio = widest / narrowest;
+    let ends = [HIGHEST_K / narrowest, LOWEST_K / widest];
+    if !(ratio <= LARGEST_CHORD_RATIO && ends.iter().all(|k| k.is_normal())) {
+        return Err(Error::BadOption {
+            option: "the ratio of the widest to the narrowest chord",
+            value: ratio,
+            expected: "at most 1e6, of chords in metres; correct the strip table",
+        });
+    }
     let (end, usual) = (
         (LOWEST_K / widest).ln(),
         (USUAL_K[1] / widest).ln()..=(USUAL_K[0] / narrowest).ln(),
@@ -98,7 +118,7 @@ fn grid(semi_chords: &[f64]) -> Vec<f64> {
         };
         grid.push(last - step);
     }
-    grid
+    Ok(grid)
 }
 
 /// Roots p of `p^2 A + p D + K`, rigid-body modes' zeros left out.

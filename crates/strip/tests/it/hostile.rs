@@ -287,3 +287,16 @@ fn prop_overflow_is_an_error() {
     .unwrap();
     assert!(matches!(lag_flutter(&model, 1.0), Err(Error::BadMode { .. })));
 }
+
+/// Wave numbers beyond all numbers once made a grid without an end.
+#[test]
+fn regress_chords_of_no_scale_are_refused() {
+    for chords in [[1e-308, 1.0], [1.0, 1e300], [1e-300, 1e-300], [1e-5, 10.0]] {
+        let strips = chords.map(|chord| Strip { chord, ..strip() }).to_vec();
+        let found = model(strips, shapes(2, 2), &JONES).and_then(|m| lag_flutter(&m, 1.0));
+        assert!(!matches!(found, Ok(Some(_))), "{chords:?}: {found:?}");
+    }
+    let strips = [1e-9, 1.0].map(|chord| Strip { chord, ..strip() }).to_vec();
+    let found = model(strips, shapes(2, 2), &JONES).and_then(|m| lag_flutter(&m, 1.0));
+    assert!(matches!(found, Err(Error::BadOption { .. })), "{found:?}");
+}

@@ -164,7 +164,9 @@ fn written_unit(suffix: &str) -> String {
                 "mps" => "m/s".to_owned(),
                 "mps2" => "m/s^2".to_owned(),
                 _ => match piece.strip_suffix(['2', '3']) {
-                    Some(base) if !base.is_empty() => format!("{base}^{}", &piece[base.len()..]),
+                    Some(base) if !base.is_empty() => {
+                        format!("{base}^{}", piece.get(base.len()..).unwrap_or_default())
+                    }
                     _ => piece.to_owned(),
                 },
             };

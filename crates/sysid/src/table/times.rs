@@ -88,7 +88,8 @@ impl Table {
 
     /// Points to the step that differs most from the median step.
     fn not_uniform(&self, column: &Column, resolution: f64) -> Error {
-        let steps: Vec<f64> = column.values.windows(2).map(|w| w[1] - w[0]).collect();
+        let next = column.values.iter().skip(1);
+        let steps: Vec<f64> = column.values.iter().zip(next).map(|(a, b)| b - a).collect();
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);
         let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);

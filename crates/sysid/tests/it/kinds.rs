@@ -6,7 +6,7 @@ use albatross_lti::{Hold, Signal};
 use albatross_numerics::C64;
 use albatross_sysid::{
     Block, DataSet, Delay, Detrend, Error, Experiment, InitialCondition, Initialisation, Intersample, Model,
-    Options, SearchMethod, SearchOptions, detect_intersample, estimate, remove_trim, search,
+    Options, SearchMethod, SearchOptions, Weights, detect_intersample, estimate, remove_trim, search,
     simulate_records,
 };
 
@@ -361,6 +361,52 @@ fn val_what_cannot_be_estimated_is_refused() {
     assert!(matches!(of(&set(y.clone(), &u), 3, 4), Some(Error::Order { .. })));
     let short = set(y[490..510].to_vec(), &u[490..510]);
     assert!(matches!(of(&short, 10, 9), Some(Error::TooFewSamples { .. })));
+    // Sizes whose squares overflow or vanish, by the name of record and signal.
+    for factor in [1e160, 1e-160] {
+        let sized: Vec<f64> = y.iter().map(|v| v * factor).collect();
+        let message = of(&set(sized, &u), 2, 1).unwrap().to_string();
+        assert!(message.starts_with("x: the largest value of"), "{message}");
+    }
+    // Settings out of their range, by name.
+    let sound = set(y.clone(), &u);
+    let with = |change: &dyn Fn(&mut Options)| {
+        let mut options = Options::new(6, 5);
+        change(&mut options);
+        estimate(&sound, &options).unwrap_err().to_string()
+    };
+    for (message, what) in [
+        (
+            with(&|o| o.delay = Delay::Fixed(f64::NAN)),
+            "the transport delay [s] is NaN",
+        ),
+        (
+            with(&|o| o.delay = Delay::Fixed(1.0)),
+            "the transport delay [s] is 1",
+        ),
+        (
+            with(&|o| o.delay = Delay::UpTo(1e300)),
+            "the transport delay [s] is 1",
+        ),
+        (
+            with(&|o| o.tolerance = f64::NAN),
+            "the tolerance of the search is NaN",
+        ),
+        (
+            with(&|o| o.tolerance = f64::INFINITY),
+            "the tolerance of the search is inf",
+        ),
+        (with(&|o| o.starts = usize::MAX), "the number of starts is"),
+        (
+            with(&|o| o.weights = Weights::Given(vec![vec![0.0]])),
+            "the largest weight of an output is 0",
+        ),
+        (
+            with(&|o| o.weights = Weights::Given(vec![vec![f64::NAN]])),
+            "a weight is NaN",
+        ),
+    ] {
+        assert!(message.contains(what), "{message}");
+    }
     // More poles than the data hold: a model, and a warning.
     let much = estimate(&set(y, &u), &Options::new(12, 11)).unwrap();
     assert!(!much.warnings.is_empty());

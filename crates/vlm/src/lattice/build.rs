@@ -11,6 +11,13 @@ use crate::body::LatticeBody;
 use crate::error::{Error, Result};
 use crate::spacing::{ChordStation, chord_stations};
 
+/// Most vortices of a lattice; AVL's own limit is 5000 or 6000. The influence matrix of as many takes 3.2 GB.
+const MOST_VORTICES: usize = 20_000;
+/// Most nodes of a body.
+const MOST_NODES: usize = 10_000;
+/// Most controls and design variables; AVL's own limit is 30 of each. Every strip asks for every one.
+const MOST_VARIABLES: usize = 1000;
+
 /// Text of files that the geometry names: path as written in, text out; `None` where there is no such file.
 pub type Files<'f> = dyn Fn(&str) -> Option<String> + 'f;
 
@@ -22,9 +29,11 @@ impl Lattice {
     ///
     /// # Errors
     /// [`Error::NoSurfaces`]; [`Error::Surface`] for sections without chord or distance, or too few strips;
-    /// [`Error::Airfoil`]; [`Error::Body`]; [`Error::Value`] for reference lengths that are not positive.
+    /// [`Error::Airfoil`]; [`Error::Body`]; [`Error::Value`] for reference lengths that are not positive and for more than
+    /// 20 000 vortices, 10 000 nodes of a body or 1000 controls and design variables.
     pub fn new(geometry: &Geometry, files: &Files<'_>) -> Result<(Self, Vec<String>)> {
         check_header(geometry)?;
+        check_size(geometry)?;
         let mut remarks = Vec::new();
         let mut lattice = Self {
             title: geometry.title.trim().to_owned(),
@@ -304,6 +313,49 @@ fn check_header(geometry: &Geometry) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Refuses numbers of vortices and nodes that no machine could work with, before anything is made of them.
+fn check_size(geometry: &Geometry) -> Result<()> {
+    let mut total = 0_usize;
+    for surface in &geometry.surfaces {
+        let by_section = || {
+            // The last section has no next one.
+            let last = surface.sections.len().saturating_sub(1);
+            let counts = surface.sections.iter().take(last).filter_map(|s| s.spanwise);
+            counts.fold(0_usize, |sum, s| sum.saturating_add(s.count))
+        };
+        let strips = surface.spanwise.map_or_else(by_section, |s| s.count);
+        let sides = if surface.y_duplicate.is_some() { 2 } else { 1 };
+        let own = strips
+            .max(1)
+            .saturating_mul(surface.n_chord)
+            .saturating_mul(sides);
+        total = total.saturating_add(own);
+        if total > MOST_VORTICES {
+            return Err(Error::Value {
+                what: format!("the number of vortices up to surface \"{}\"", surface.name.trim()),
+                value: total as f64,
+                expected: "at most 20000: lower its Nchord or Nspan",
+            });
+        }
+    }
+    let variables = geometry.control_names().len() + geometry.design_names().len();
+    if variables > MOST_VARIABLES {
+        return Err(Error::Value {
+            what: "the number of controls and design variables".to_owned(),
+            value: variables as f64,
+            expected: "at most 1000: give those that move together one name",
+        });
+    }
+    match geometry.bodies.iter().find(|b| b.spacing.count > MOST_NODES) {
+        Some(body) => Err(Error::Value {
+            what: format!("Nbody of body \"{}\"", body.name.trim()),
+            value: body.spacing.count as f64,
+            expected: "at most 10000",
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Sections of a surface with scale, translation, incidence, camber and drag polar worked in.

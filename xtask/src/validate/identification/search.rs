@@ -12,7 +12,7 @@ use crate::validate::study::Study;
 use crate::workspace;
 use albatross::report::plot::{Axis, LinePlot, Marker, Panel, Series, Style};
 use albatross::report::{Cell, Column, Format, Table};
-use albatross::sysid::{self, Candidate, OrderSearch, SearchOptions, Training};
+use albatross::sysid::{self, OrderSearch, SearchOptions, Training};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -91,17 +91,23 @@ pub(crate) struct Single {
 pub(crate) type Files = Vec<(String, String)>;
 
 impl Kept {
-    /// Reads what is kept below the directory of the results.
-    pub(crate) fn read(results: &Path) -> Result<(Self, Files), Error> {
+    /// Reads what is kept below the directory of the results, and draws it anew.
+    pub(crate) fn read(results: &Path, study: &Study) -> Result<(Self, Files), Error> {
         let directory = results.join(DIRECTORY);
-        let kept = read_json(&directory.join(ORDERS))?;
-        let files = [ORDERS, CANDIDATES, DRAWING].map(|name| {
-            Ok((
-                format!("{DIRECTORY}/{name}"),
-                workspace::read(&directory.join(name))?,
-            ))
-        });
-        Ok((kept, files.into_iter().collect::<Result<_, Error>>()?))
+        let kept: Self = read_json(&directory.join(ORDERS))?;
+        let orders = workspace::read(&directory.join(ORDERS))?;
+        let candidates = workspace::read(&directory.join(CANDIDATES))?;
+        let files = kept.files(study, orders, candidates)?;
+        Ok((kept, files))
+    }
+
+    /// The files of a search: its orders, its candidates, and a drawing of these.
+    fn files(&self, study: &Study, orders: String, candidates: String) -> Result<Files, Error> {
+        let drawing = self.drawing(study, &rows(&candidates)?)?;
+        let files = [(ORDERS, orders), (CANDIDATES, candidates), (DRAWING, drawing)];
+        Ok(files
+            .map(|(name, text)| (format!("{DIRECTORY}/{name}"), text))
+            .into())
     }
 
     /// The order of an output.
@@ -182,13 +188,8 @@ pub(crate) fn run(root: &Path, study: &Study) -> Result<(Kept, Files), Error> {
     };
     let mut orders = serde_json::to_string_pretty(&kept).map_err(Error::json(Path::new(ORDERS)))?;
     orders.push('\n');
-    let files = [
-        (ORDERS, orders),
-        (CANDIDATES, candidates(&searches)?.to_csv()),
-        (DRAWING, drawing(study, &searches)?),
-    ];
-    let files = files.map(|(name, text)| (format!("{DIRECTORY}/{name}"), text));
-    Ok((kept, files.into()))
+    let files = kept.files(study, orders, candidates(&searches)?.to_csv())?;
+    Ok((kept, files))
 }
 
 fn order(study: &Study, target: Target, found: &OrderSearch) -> Result<Order, Error> {
@@ -266,52 +267,70 @@ fn candidates(searches: &[(Target, OrderSearch)]) -> Result<Table, Error> {
     Ok(table)
 }
 
-/// Mean fit of all candidates over the number of poles, a panel for each output.
-fn drawing(study: &Study, searches: &[(Target, OrderSearch)]) -> Result<String, Error> {
-    let trainings = (0..MANOEUVRES.len())
-        .map(Training::Single)
-        .chain([Training::Merged])
-        .enumerate();
-    let mut plot = LinePlot::new(
-        "Mean fit on the three histories against the number of poles",
-        Axis::new("Number of poles", "").with_limits(POLES[0] as f64, POLES[1] as f64),
-    );
-    for (target, found) in searches {
-        let mut panel = Panel::over(Axis::new(target.shown()?.symbol, "%").with_limits(40.0, 100.0));
-        for (index, training) in trainings.clone() {
-            let of: Vec<&Candidate> = found
-                .candidates
-                .iter()
-                .filter(|c| c.training == training)
-                .collect();
-            let (style, name) = match training {
-                Training::Merged => (Style::reference(), "trained on all three".to_owned()),
-                _ => (
-                    Style::model(index),
-                    format!("trained on {} alone", trained_on(training)),
-                ),
+/// What is drawn of a candidate, as its file has it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Row {
+    output: String,
+    poles: usize,
+    #[serde(rename = "trained on")]
+    trained_on: String,
+    #[serde(rename = "mean fit [%]")]
+    mean_fit: Option<f64>,
+}
+
+fn rows(candidates: &str) -> Result<Vec<Row>, Error> {
+    let mut reader = csv::Reader::from_reader(candidates.as_bytes());
+    reader
+        .deserialize()
+        .collect::<Result<_, _>>()
+        .map_err(|e| Error::Mismatch {
+            what: CANDIDATES.to_owned(),
+            found: e.to_string(),
+            expected: "candidates as `cargo xtask validate --search` writes them".into(),
+        })
+}
+
+impl Kept {
+    /// Mean fit of all candidates over the number of poles, a panel for each output.
+    fn drawing(&self, study: &Study, rows: &[Row]) -> Result<String, Error> {
+        let trainings = (0..MANOEUVRES.len())
+            .map(Training::Single)
+            .chain([Training::Merged])
+            .enumerate();
+        let mut plot = LinePlot::new(
+            "Mean fit on the three histories against the number of poles",
+            Axis::new("Number of poles", "").with_limits(POLES[0] as f64, POLES[1] as f64),
+        );
+        for target in TARGETS {
+            let mut panel = Panel::over(Axis::new(target.shown()?.symbol, "%").with_limits(40.0, 100.0));
+            for (index, training) in trainings.clone() {
+                let trained_on = trained_on(training);
+                let of = rows
+                    .iter()
+                    .filter(|row| row.output == target.name() && row.trained_on == trained_on);
+                let (poles, fits): (Vec<f64>, Vec<f64>) = of
+                    .map(|row| (row.poles as f64, row.mean_fit.unwrap_or(f64::NAN)))
+                    .unzip();
+                let (style, name) = match training {
+                    Training::Merged => (Style::reference(), "trained on all three".to_owned()),
+                    _ => (Style::model(index), format!("trained on {trained_on} alone")),
+                };
+                let style = style.with_marker(Marker::Disc);
+                panel.series.push(Series::new(name, style, poles, fits));
+            }
+            let (paper, _) = paper_order(study, target)?;
+            let chosen = self.order(target)?.poles;
+            panel = if chosen == paper {
+                panel.with_guide_x(paper as f64, "paper, chosen")
+            } else {
+                panel
+                    .with_guide_x(paper as f64, "paper")
+                    .with_guide_x(chosen as f64, "chosen")
             };
-            panel.series.push(Series::new(
-                name,
-                style.with_marker(Marker::Disc),
-                of.iter().map(|c| c.poles as f64).collect::<Vec<_>>(),
-                of.iter()
-                    .map(|c| c.average.unwrap_or(f64::NAN))
-                    .collect::<Vec<_>>(),
-            ));
+            plot.panels.push(panel.with_height(170.0));
         }
-        let (paper, _) = paper_order(study, *target)?;
-        let chosen = found.candidates.get(found.chosen).map_or(0, |c| c.poles);
-        panel = if chosen == paper {
-            panel.with_guide_x(paper as f64, "paper, chosen")
-        } else {
-            panel
-                .with_guide_x(paper as f64, "paper")
-                .with_guide_x(chosen as f64, "chosen")
-        };
-        plot.panels.push(panel.with_height(170.0));
+        Ok(plot.without_heading().render()?.markup)
     }
-    Ok(plot.without_heading().render()?.markup)
 }
 
 /// The searched orders for the page.

@@ -1,0 +1,3 @@
+#![no_main]
+
+albatross_fuzz::target!(avl_lattice);
