@@ -338,4 +338,49 @@ mod tests {
             }
         }
     }
+
+    /// The work of the solvers, counted: a change that makes them work more shows here and not in the seconds of a machine.
+    /// Counts of iterations have some room, since rounding differs between processors.
+    #[test]
+    fn regress_work_of_the_solvers() {
+        let file = FilePath::new(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../fixtures/f25-like/case.toml"
+        ));
+        let inputs = Inputs::read(file).unwrap();
+        let model = Model::build(&inputs, &inputs.case.variant(Some("avl")).unwrap()).unwrap();
+        let trimmed = analysis::trimmed(&model).unwrap();
+        let mut manoeuvre = inputs.case.manoeuvres[0].clone();
+        manoeuvre.end = 1.0;
+        let flown = analysis::simulate_case(&inputs, &trimmed, &manoeuvre).unwrap();
+        let Ends {
+            path,
+            in_vacuo,
+            named,
+        } = ends(&model, &trimmed).unwrap();
+        let chosen: Vec<C64> = in_vacuo.into_iter().chain(named.iter().map(|n| n.1)).collect();
+        let [from, to] = [&path.from, &path.to].map(|a| LagForm::new(a.as_ref(), &path.lags).unwrap());
+        let roots: Vec<_> = chosen.iter().map(|v| from.root(*v).unwrap()).collect();
+        let found = lags::follow(&from, &to, &roots, Path::options()).unwrap();
+        let counts = [
+            ("states", trimmed.system.states.len(), 444..=444),
+            ("iterations of the trim", trimmed.trim.iterations, 6..=10),
+            (
+                "evaluations of the derivative in 1 s at 1 kHz",
+                flown.evaluations,
+                4000..=4000,
+            ),
+            ("order of the matrices factorised", to.core_count(), 49..=49),
+            ("modes followed", chosen.len(), 25..=25),
+            ("steps along the path", found.steps, 0..=0),
+            ("factorisations", found.effort.factorisations, 0..=0),
+            ("iterations of the roots", found.effort.iterations, 0..=0),
+        ];
+        let outside: Vec<String> = counts
+            .iter()
+            .filter(|(_, count, range)| !range.contains(count))
+            .map(|(what, count, range)| format!("{what}: {count}, expected {range:?}"))
+            .collect();
+        assert!(outside.is_empty(), "{outside:#?}");
+    }
 }

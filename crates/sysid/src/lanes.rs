@@ -57,7 +57,9 @@ pub(crate) fn side_by_side<const N: usize, const B: usize>(
     let lane = |of: &dyn Fn(&Sampled) -> f64| -> Lane {
         std::array::from_fn(|l| members.get(l).map_or(0.0, |block| of(block)))
     };
-    let mut columns = vec![vec![Vec::with_capacity(rows); N]; members.len()];
+    // Not by `vec!`: clones of an empty vector have no room.
+    let of_block = |_: &&Sampled| (0..N).map(|_| Vec::with_capacity(rows)).collect();
+    let mut columns: Vec<Vec<Vec<f64>>> = members.iter().map(of_block).collect();
     Arch::new().dispatch(SideBySide::<N, B> {
         e: std::array::from_fn(|i| std::array::from_fn(|j| lane(&|block| block.e[i][j]))),
         taps: std::array::from_fn(|t| std::array::from_fn(|i| lane(&|block| block.taps[t][i]))),
