@@ -372,9 +372,9 @@ mod tests {
             ),
             ("order of the matrices factorised", to.core_count(), 49..=49),
             ("modes followed", chosen.len(), 25..=25),
-            ("steps along the path", found.steps, 0..=0),
-            ("factorisations", found.effort.factorisations, 0..=0),
-            ("iterations of the roots", found.effort.iterations, 0..=0),
+            ("steps along the path", found.steps, 8..=24),
+            ("factorisations", found.effort.factorisations, 200..=1000),
+            ("iterations of the roots", found.effort.iterations, 400..=4000),
         ];
         let outside: Vec<String> = counts
             .iter()
