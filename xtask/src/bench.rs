@@ -112,10 +112,7 @@ impl Measurement {
 
     /// Bytes or operations a nanosecond.
     fn rate(&self) -> Option<f64> {
-        match self.name.throughput {
-            Some(Throughput::Bytes(n) | Throughput::Elements(n)) => Some(n / self.median_ns()),
-            _ => None,
-        }
+        self.work().map(|(_, n)| n / self.median_ns())
     }
 
     /// Time over that of the quickest of its group.
@@ -128,9 +125,19 @@ impl Measurement {
         self.median_ns() / quickest
     }
 
-    /// Whether a ratio of the two says something: one group, one parameter.
+    /// Bytes (true) or operations of one iteration.
+    fn work(&self) -> Option<(bool, f64)> {
+        match self.name.throughput {
+            Some(Throughput::Bytes(n)) => Some((true, n)),
+            Some(Throughput::Elements(n)) => Some((false, n)),
+            _ => None,
+        }
+    }
+
+    /// Whether a ratio of the two says something: one group, one parameter, the same work.
     fn same_group(&self, other: &Self) -> bool {
-        (&self.name.group_id, &self.name.value_str) == (&other.name.group_id, &other.name.value_str)
+        let of = |m: &Self| (m.name.group_id.clone(), m.name.value_str.clone(), m.work());
+        of(self) == of(other)
     }
 }
 
@@ -280,7 +287,7 @@ mod tests {
     fn val_ratios_and_throughput() {
         let directory = tempfile::tempdir().unwrap();
         write(directory.path(), "a", "slow", 4e6, "{\"Bytes\":1000000}");
-        write(directory.path(), "a", "quick", 1e6, "null");
+        write(directory.path(), "a", "quick", 1e6, "{\"Bytes\":1000000}");
         write(directory.path(), "b", "alone", 5.0, "{\"Elements\":3}");
         write(directory.path(), "floor", "copy", 1e8, "{\"Bytes\":1000000000}");
         write(
@@ -293,7 +300,7 @@ mod tests {
         let results = collect(directory.path(), SystemTime::UNIX_EPOCH).unwrap();
         let csv = table(&results).unwrap().to_csv();
         let lines: Vec<&str> = csv.lines().collect();
-        assert_eq!(lines[1], "a,,quick,0.001,1e-9,2e-9,,,,1");
+        assert_eq!(lines[1], "a,,quick,0.001,1e-9,2e-9,1,,10,1");
         assert_eq!(lines[2], "a,,slow,0.004,1e-9,2e-9,0.25,,40,4");
         assert_eq!(lines[3], "b,,alone,5e-9,1e-9,2e-9,,0.6,50,1");
         assert_eq!(lines[4], "floor,,copy,0.1,1e-9,2e-9,10,,1,1");

@@ -65,7 +65,7 @@ fn gather(root: &Path, to: &Path) -> Result<BTreeSet<String>, Error> {
     for file in chapters.union(&linked) {
         copy(&root.join(file), &to.join(file))?;
     }
-    workspace::write_whole(&to.join("SUMMARY.md"), &from_root(&summary))?;
+    workspace::write_whole(&to.join("SUMMARY.md"), from_root(&summary))?;
     Ok(chapters)
 }
 

@@ -16,6 +16,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+/// What a command of a page itself prints, given as words; nothing for other commands.
+pub(crate) type OwnCommand = fn(&mut Shell, &[String]) -> Option<Result<String, Error>>;
+
 /// Where and with what the commands of a page are run.
 pub(crate) struct Shell {
     /// Folder of the page: pictures are beside it.
@@ -27,7 +30,7 @@ pub(crate) struct Shell {
     /// Pictures are compared, not written.
     pub(crate) check: bool,
     /// Commands that the page handles in its own way, for instance to open a file in a browser.
-    pub(crate) own: fn(&mut Self, &[String]) -> Option<Result<String, Error>>,
+    pub(crate) own: OwnCommand,
     /// Commands run so far, and how long each took.
     pub(crate) times: Vec<(String, Duration)>,
     /// Pictures that differ from what was drawn.

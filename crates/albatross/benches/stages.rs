@@ -63,7 +63,7 @@ fn reading(c: &mut Criterion) {
     let deck = std::fs::read(fixture("f25.bdf")).unwrap();
     group.throughput(Throughput::Bytes(deck.len() as u64));
     group.bench_function("deck (.bdf)", |b| {
-        b.iter(|| albatross::nastran::bdf::read_strict(&fixture("f25.bdf")).unwrap());
+        b.iter(|| albatross::nastran::bdf::read_strict(fixture("f25.bdf")).unwrap());
     });
     group.finish();
 }

@@ -173,13 +173,46 @@ fn at_flight_point(locus: &RootLocus, flight_speed: f64) -> Option<usize> {
     locus.points.iter().position(here)
 }
 
-/// The branches of the modes over speed in the complex plane, numbered at the flight point.
+/// The branches of the modes over speed in the complex plane, elastic modes numbered at the flight point.
 pub(crate) fn locus(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> ScatterPlot {
     let window = Window::around(modes);
-    let mut plot = ScatterPlot::pole_map("Root locus over speed", "rad/s").with_damping_rays(RAYS);
+    let mut plot = branches(locus, &window, flight_speed, BranchKind::Elastic);
+    plot.title = "Root locus over speed".into();
+    plot.height = 560.0;
+    plot
+}
+
+/// The same about the rigid-body modes, which the elastic ones leave no room for; nothing if there are none.
+pub(crate) fn locus_of_rigid_body(locus: &RootLocus, flight_speed: f64) -> Option<ScatterPlot> {
+    let values: Vec<(f64, f64)> = locus
+        .branches
+        .iter()
+        .filter(|b| b.kind == BranchKind::RigidBody)
+        .flat_map(|b| b.values.iter().flatten().copied())
+        .collect();
+    let fastest = values.iter().map(|v| v.1).fold(0.0, f64::max);
+    let (least, most) = values.iter().fold((0.0_f64, 0.0_f64), |(least, most), v| {
+        (least.min(v.0), most.max(v.0))
+    });
+    if fastest <= 0.0 {
+        return None;
+    }
+    let room = 0.15 * (most - least).max(0.1 * fastest);
+    let window = Window {
+        re: (least - room, most + 2.5 * room),
+        im: 1.15 * fastest,
+    };
+    let mut plot = branches(locus, &window, flight_speed, BranchKind::RigidBody);
+    plot.title = "Rigid-body modes over speed".into();
+    plot.height = 320.0;
+    Some(plot)
+}
+
+/// Branches within a window, those of one kind with their names at the flight point.
+fn branches(locus: &RootLocus, window: &Window, flight_speed: f64, named: BranchKind) -> ScatterPlot {
+    let mut plot = ScatterPlot::pole_map("", "rad/s").with_damping_rays(RAYS);
     plot.x = plot.x.with_limits(window.re.0, window.re.1);
     plot.y = plot.y.with_limits(0.0, window.im);
-    plot.height = 560.0;
     let (re, im): (Vec<f64>, Vec<f64>) = locus
         .points
         .iter()
@@ -187,22 +220,19 @@ pub(crate) fn locus(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> 
         .copied()
         .filter(|v| window.holds(*v))
         .unzip();
-    plot = plot.with(Series::new(
-        "all eigenvalues",
-        dots(FAINT, Marker::Disc).with_width(0.8),
-        re,
-        im,
-    ));
+    plot = plot.with(Series::new("all eigenvalues", dots(FAINT, Marker::Disc), re, im));
     for branch in &locus.branches {
         let (name, colour) = kind(branch);
         let style = Style {
             colour,
             ..Style::model(0)
         };
-        let (re, im): (Vec<f64>, Vec<f64>) = along(branch, |_| true).unzip();
-        plot = plot.with(Series::new(name, style, re, im));
+        let (re, im): (Vec<f64>, Vec<f64>) = along(branch, |v| window.holds(v)).unzip();
+        if re.iter().any(|v| v.is_finite()) {
+            plot = plot.with(Series::new(name, style, re, im));
+        }
     }
-    let ends = |at: usize, name: String, marker: Marker, numbered: bool| {
+    let markers = |at: usize, name: String, marker: Marker, labelled: bool| {
         let (mut re, mut im, mut labels) = (Vec::new(), Vec::new(), Vec::new());
         for branch in &locus.branches {
             if let Some(value) = branch
@@ -214,70 +244,104 @@ pub(crate) fn locus(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> 
             {
                 re.push(value.0);
                 im.push(value.1);
-                labels.push(branch.name.clone());
+                let own = branch.kind == named;
+                labels.push(if own { branch.name.clone() } else { String::new() });
             }
         }
         let series = Series::new(name, dots(Colour::BLACK, marker), re, im);
-        if numbered {
+        if labelled {
             series.with_labels(labels)
         } else {
             series
         }
     };
-    if let Some(last) = locus.points.len().checked_sub(1) {
-        let fastest = locus.points[last].speed;
-        plot = plot.with(ends(
-            last,
-            format!("at {fastest:.0} m/s"),
-            Marker::Triangle,
-            false,
-        ));
+    if let Some((last, point)) = locus.points.iter().enumerate().next_back() {
+        let name = format!("at {:.0} m/s", point.speed);
+        plot = plot.with(markers(last, name, Marker::Triangle, false));
     }
     if let Some(here) = at_flight_point(locus, flight_speed) {
         let name = format!("flight point, {flight_speed:.0} m/s");
-        plot = plot.with(ends(here, name, Marker::Disc, true));
+        plot = plot.with(markers(here, name, Marker::Disc, true));
     }
     plot
 }
 
-/// Damping ratio beyond which a mode is left out of the diagrams over speed.
-const MOST_DAMPING: f64 = 0.5;
+/// Damping ratio beyond which a mode is left out of the diagram of damping: the others would be pressed together.
+const MOST_DAMPING: f64 = 0.25;
+
+/// Part of the range within which damping ratios share one label: one beside the other could not be read.
+const ONE_LABEL: f64 = 0.035;
 
 /// Frequency and damping of the modes over speed.
 pub(crate) fn frequency_and_damping(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> LinePlot {
     let window = Window::around(modes);
-    let speeds: Vec<f64> = locus.points.iter().map(|p| p.speed).collect();
-    let here = at_flight_point(locus, flight_speed);
     let of_frequency = |(re, im): (f64, f64)| re.hypot(im);
     let of_damping = |(re, im): (f64, f64)| -re / re.hypot(im);
-    let drawn = |v: (f64, f64)| window.holds(v) && of_damping(v) < MOST_DAMPING;
-    let panel = |name: &str, unit: &str, height: f64, of: &dyn Fn((f64, f64)) -> f64| {
-        let mut panel = Panel::new(name, unit);
-        let (mut at, mut marked, mut labels) = (Vec::new(), Vec::new(), Vec::new());
-        for branch in &locus.branches {
-            let (name, colour) = kind(branch);
-            let style = Style {
-                colour,
-                ..Style::model(0)
-            };
-            let values: Vec<f64> = along(branch, drawn).map(of).collect();
-            if let Some(value) = here.and_then(|k| values.get(k)).filter(|v| v.is_finite()) {
-                at.push(flight_speed);
-                marked.push(*value);
-                labels.push(branch.name.clone());
-            }
-            panel = panel.with(Series::new(name, style, speeds.clone(), values));
-        }
-        let points = Series::new("", dots(Colour::BLACK, Marker::Disc), at, marked).with_labels(labels);
+    let frequency = over_speed(locus, flight_speed, 0.0, |v| {
+        window.holds(v).then(|| of_frequency(v))
+    });
+    let damping = over_speed(locus, flight_speed, ONE_LABEL, |v| {
+        (window.holds(v) && of_damping(v) < MOST_DAMPING).then(|| of_damping(v))
+    });
+    let panel = |name: &str, unit: &str, series: Vec<Series>, height: f64| {
+        let mut panel = Panel::new(name, unit)
+            .with_guide_x(flight_speed, "")
+            .with_height(height);
+        panel.series = series;
         panel
-            .with(points)
-            .with_guide_x(flight_speed, "flight point")
-            .with_height(height)
     };
     LinePlot::new(
         "Frequency and damping over speed",
         Axis::new("True airspeed", "m/s"),
     )
-    .with(panel("Frequency", "rad/s", 380.0, &of_frequency))
-    .with(panel("Damping ratio", "", 300.0, &of_damping).with_guide_y(0.0, ""))
+    .with(panel("Frequency", "rad/s", frequency, 380.0))
+    .with(panel("Damping ratio", "", damping, 380.0).with_guide_y(0.0, ""))
+}
+
+/// A line a branch of what `shown` makes of its values, and its name at the flight point; names nearer than a part of the
+/// range are left out but for the first.
+fn over_speed(
+    locus: &RootLocus,
+    flight_speed: f64,
+    apart: f64,
+    shown: impl Fn((f64, f64)) -> Option<f64>,
+) -> Vec<Series> {
+    let speeds: Vec<f64> = locus.points.iter().map(|p| p.speed).collect();
+    let here = at_flight_point(locus, flight_speed);
+    let mut series = Vec::new();
+    let mut marked: Vec<(f64, &str)> = Vec::new();
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for branch in &locus.branches {
+        let (name, colour) = kind(branch);
+        let style = Style {
+            colour,
+            ..Style::model(0)
+        };
+        let value = |v: &Option<(f64, f64)>| v.and_then(&shown).unwrap_or(f64::NAN);
+        let values: Vec<f64> = branch.values.iter().map(value).collect();
+        (least, most) = values
+            .iter()
+            .fold((least, most), |(l, m), v| (l.min(*v), m.max(*v)));
+        if let Some(value) = here.and_then(|k| values.get(k)).filter(|v| v.is_finite()) {
+            marked.push((*value, &branch.name));
+        }
+        series.push(Series::new(name, style, speeds.clone(), values));
+    }
+    marked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut last = f64::INFINITY;
+    let labels: Vec<String> = marked
+        .iter()
+        .map(|(value, name)| {
+            let room = last - value > apart * (most - least);
+            if room {
+                last = *value;
+            }
+            if room { (*name).to_owned() } else { String::new() }
+        })
+        .collect();
+    let values: Vec<f64> = marked.iter().map(|m| m.0).collect();
+    let at = vec![flight_speed; values.len()];
+    series
+        .push(Series::new("flight point", dots(Colour::BLACK, Marker::Disc), at, values).with_labels(labels));
+    series
 }

@@ -155,17 +155,20 @@ fn locus(results: &Results<'_>) -> Result<Section, ReportError> {
         "Eigenvalues of the linearised aircraft, trimmed anew at each speed. Only the speed changes: altitude, mass and the \
          aerodynamic data of the flight point's Mach number are kept, so far from it the locus shows a tendency.",
     );
-    section
-        .figure(
-            &figures::locus(locus, modes, speed),
-            "Upper half of the complex plane: the modes followed from the flight point, where elastic modes carry their \
-             number, down to the lowest and up to the highest speed. Grey: all eigenvalues at these speeds, lag roots \
-             included. Dashed: constant damping ratio.",
-        )?
-        .figure(
-            &figures::frequency_and_damping(locus, modes, speed),
-            "The same modes over speed, as long as their damping ratio is below 0.5.",
-        )?;
+    section.figure(
+        &figures::locus(locus, modes, speed),
+        "Upper half of the complex plane: the modes followed from the flight point, where elastic modes carry their number, \
+         down to the lowest and up to the highest speed. Grey: all eigenvalues at these speeds, lag roots included. Dashed: \
+         constant damping ratio.",
+    )?;
+    if let Some(plot) = figures::locus_of_rigid_body(locus, speed) {
+        section.figure(&plot, "The oscillatory rigid-body modes alone.")?;
+    }
+    section.figure(
+        &figures::frequency_and_damping(locus, modes, speed),
+        "The same modes over speed. Damping ratios above 0.25 are left out, and of numbers too near to be read the first is \
+         shown.",
+    )?;
     Ok(section)
 }
 

@@ -136,10 +136,10 @@ impl<const N: usize, const B: usize> SideBySide<'_, N, B> {
                 }
             }
         }
-        for i in 0..N {
-            for j in 0..N.min((i / B + 1) * B) {
+        for (i, (next, row)) in next.iter_mut().zip(&self.e).enumerate() {
+            for (e, x) in row.iter().zip(x.iter()).take((i / B + 1) * B) {
                 for l in 0..LANES {
-                    next[i][l] = self.e[i][j][l].mul_add(x[j][l], next[i][l]);
+                    next[l] = e[l].mul_add(x[l], next[l]);
                 }
             }
         }

@@ -194,7 +194,7 @@ impl Results {
     fn write(&self, directory: &Path) -> Result<(), Error> {
         for (name, text) in self.files.iter().rev() {
             let end = if text.ends_with('\n') { "" } else { "\n" };
-            workspace::write_whole(&directory.join(name), &format!("{text}{end}"))?;
+            workspace::write_whole(&directory.join(name), format!("{text}{end}"))?;
         }
         Ok(())
     }

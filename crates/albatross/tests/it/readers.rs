@@ -221,7 +221,7 @@ pub fn airfoil(bytes: &[u8]) -> bool {
             geometry.bodies = bodies;
             solve_lattice(&geometry, Some(&file)) && section
         }
-        Err(error) => unreachable!("{error}"),
+        Err(error) => panic!("{error}"),
     }
 }
 

@@ -175,8 +175,8 @@ impl LagForm {
         &self,
         lu: &PartialPivLu<C64>,
         (sigma, s): (C64, C64),
-        x: &mut Vec<C64>,
-        y: &mut Vec<C64>,
+        x: &mut [C64],
+        y: &mut [C64],
     ) {
         let weight = |k: usize| self.weight(s, k) * self.weight(sigma, k);
         let driven = self.driven(x).times(weight);
