@@ -106,7 +106,11 @@ fn opened(page: &Path) -> Result<String, Error> {
                 "--enable-unsafe-swiftshader",
                 "--hide-scrollbars",
             ])
-            .args(["--window-size=1280,1750", "--virtual-time-budget=8000"])
+            .args([
+                "--window-size=1280,1750",
+                "--virtual-time-budget=8000",
+                "--force-prefers-reduced-motion",
+            ])
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .args(arguments);
         standard_output(&mut process, browser)
