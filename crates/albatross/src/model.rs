@@ -19,6 +19,9 @@ use albatross_strip::quasi_steady::{
 };
 use albatross_strip::{AeroelasticModel, StripShapes, StripTheory, Structure};
 
+/// Mach number beyond which shocks govern: neither Prandtl-Glauert nor the lags hold.
+pub(crate) const HIGHEST_MACH: f64 = 0.9;
+
 /// A model ready to be trimmed.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -119,6 +122,12 @@ impl Model {
             .chain(&strips.notes)
             .cloned()
             .collect();
+        let mach = inputs.case.flight.mach();
+        if mach > HIGHEST_MACH {
+            notes.push(format!(
+                "Mach {mach:.3} is above the range of the method, {HIGHEST_MACH}: results lack shocks and their motion"
+            ));
+        }
         let aircraft = assemble(inputs, variant, &basis, &mass, &damping, &strips, &mut notes)?;
         let options = ModelOptions {
             fidelity: variant.fidelity,

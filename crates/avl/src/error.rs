@@ -165,7 +165,7 @@ pub enum AvlError {
         found: usize,
     },
     /// A number cannot be written in the columns that AVL gives it.
-    #[error("cannot write `{field}`: {value} does not fit the Fortran format {format}; {cure}")]
+    #[error("cannot write `{field}`: {value:?} does not fit the Fortran format {format}; {cure}")]
     DoesNotFit {
         /// Name of the field.
         field: String,

@@ -4,6 +4,7 @@ use albatross_nastran::Deck;
 use albatross_nastran::GridPointWeight;
 use albatross_nastran::deck::{Id, ScalarMassValue};
 use albatross_nastran::frames::Frames;
+use albatross_numerics::Figure;
 use nalgebra::{Matrix6, Vector3};
 use std::collections::BTreeSet;
 
@@ -217,7 +218,7 @@ impl FemModel {
         }
         if model.constraints.free.is_empty() {
             return Err(Error::EmptyModel {
-                problem: "no freedom of the model is free and has stiffness; check GRID, elements and SPC"
+                problem: "no freedom of the model is free and has stiffness; check GRID, elements, SPC, E and G of MAT1, and areas (A of PBAR)"
                     .into(),
             });
         }
@@ -633,7 +634,7 @@ fn scalar_masses(context: &Context<'_>, freedoms: &Freedoms) -> Result<Vec<Scala
         if !value.is_finite() {
             return Err(Error::BadMass {
                 card: context.card(name, id),
-                problem: format!("its mass is {value}; expected a finite number"),
+                problem: format!("its mass is {}; expected a finite number", Figure(value)),
             });
         }
         masses.push(ScalarPair { ends, value });

@@ -41,7 +41,7 @@ impl<'a> Pencil<'a> {
         let mut ratios: Vec<f64> = massive.map(|(k, m)| k / m).collect();
         if ratios.is_empty() {
             return Err(Error::EmptyModel {
-                problem: "no free freedom carries mass; give densities (RHO on MAT1), NSM or CONM2".into(),
+                problem: "no free freedom carries mass; give densities (RHO of MAT1) with areas (A of PBAR), NSM or CONM2".into(),
             });
         }
         ratios.sort_by(f64::total_cmp);

@@ -1,11 +1,13 @@
 //! What can go wrong.
 
+use albatross_numerics::Figure;
+
 /// Errors of the flight mechanics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A quantity that the equations cannot use.
-    #[error("{quantity} is {value}, expected {expected}")]
+    #[error("{quantity} is {value}, expected {expected}", value = Figure(*value))]
     BadQuantity {
         /// The quantity.
         quantity: &'static str,
@@ -89,8 +91,7 @@ pub enum Error {
     /// The simulation left the finite numbers.
     #[error(
         "the simulation became non-finite at t = {time:.6} s in state `{state}`; reduce the step of {dt} s or the \
-         input, or look for an instability in the mode table"
-    )]
+         input, or look for an instability in the mode table", dt = Figure(*dt))]
     Diverged {
         /// Time \[s\].
         time: f64,
@@ -100,7 +101,7 @@ pub enum Error {
         dt: f64,
     },
     /// An input signal is unusable.
-    #[error("input signal: {quantity} is {value}, expected {expected}")]
+    #[error("input signal: {quantity} is {value}, expected {expected}", value = Figure(*value))]
     BadSignal {
         /// The quantity.
         quantity: &'static str,

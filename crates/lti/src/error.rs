@@ -1,5 +1,7 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
+use albatross_numerics::Figure;
+
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -109,7 +111,7 @@ pub enum Error {
         reason: &'static str,
     },
     /// A number lies outside the range accepted.
-    #[error("{what} is {value}, expected {expected}")]
+    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
     Domain {
         /// The number.
         what: &'static str,

@@ -1,5 +1,7 @@
 //! What can go wrong, with the numbers needed to act on it.
 
+use crate::Figure;
+
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -46,8 +48,7 @@ pub enum Error {
     },
     /// The abscissae of a table do not increase strictly.
     #[error(
-        "abscissa {index} is {found}, which does not exceed its predecessor {previous}: sort the table and merge repeated points"
-    )]
+        "abscissa {index} is {found}, which does not exceed its predecessor {previous}: sort the table and merge repeated points", found = Figure(*found), previous = Figure(*previous))]
     NotIncreasing {
         /// Index of the offending abscissa.
         index: usize,
@@ -87,7 +88,7 @@ pub enum Error {
         what: &'static str,
     },
     /// A scalar root is not enclosed by the interval given.
-    #[error("no sign change between {low} (value {at_low:e}) and {high} (value {at_high:e})")]
+    #[error("no sign change between {low} (value {at_low:e}) and {high} (value {at_high:e})", low = Figure(*low), high = Figure(*high))]
     NotBracketed {
         /// Lower end of the interval.
         low: f64,
@@ -111,7 +112,7 @@ pub enum Error {
         worst: usize,
     },
     /// An argument lies outside the range where a function is defined.
-    #[error("{what} is {value}, expected {expected}")]
+    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
     Domain {
         /// The argument.
         what: &'static str,

@@ -38,6 +38,7 @@
 
 pub mod eigen;
 mod error;
+mod figure;
 pub mod integrate;
 pub mod interp;
 mod kernel;
@@ -49,6 +50,7 @@ pub mod special;
 pub use error::{Error, Result};
 pub use faer;
 pub use faer::{Mat, MatRef};
+pub use figure::Figure;
 pub use nalgebra;
 
 /// Complex number in double precision, the element type of every complex matrix here.

@@ -1,11 +1,13 @@
 //! What can go wrong.
 
+use albatross_numerics::Figure;
+
 /// Errors of strip aerodynamics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A strip has a number that the theory cannot use.
-    #[error("strip {}: {quantity} is {value}, expected {expected}; correct the strip table", index + 1)]
+    #[error("strip {}: {quantity} is {value}, expected {expected}; correct the strip table", index + 1, value = Figure(*value))]
     BadStrip {
         /// Index of the strip, from 0.
         index: usize,
@@ -17,7 +19,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A mode has a number that the theory cannot use.
-    #[error("mode {}: {quantity} is {value}, expected {expected}; correct the modal data", index + 1)]
+    #[error("mode {}: {quantity} is {value}, expected {expected}; correct the modal data", index + 1, value = Figure(*value))]
     BadMode {
         /// Index of the mode, from 0.
         index: usize,
@@ -29,7 +31,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A lag has a number that the theory cannot use.
-    #[error("lag {}: {quantity} is {value}, expected {expected}; lags decay and take downwash away (the paper's signs)", index + 1)]
+    #[error("lag {}: {quantity} is {value}, expected {expected}; lags decay and take downwash away (the paper's signs)", index + 1, value = Figure(*value))]
     BadLag {
         /// Index of the lag, from 0.
         index: usize,
@@ -41,7 +43,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// An option or reference dimension is unusable.
-    #[error("{option} is {value}, expected {expected}")]
+    #[error("{option} is {value}, expected {expected}", value = Figure(*value))]
     BadOption {
         /// The option or dimension.
         option: &'static str,
@@ -51,7 +53,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// Density or speed is unusable.
-    #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point")]
+    #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point", value = Figure(*value))]
     BadFlow {
         /// The quantity.
         quantity: &'static str,
@@ -105,7 +107,7 @@ pub enum Error {
         last_step: f64,
     },
     /// Speeds of a sweep do not increase.
-    #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1)]
+    #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1, found = Figure(*found), previous = Figure(*previous))]
     NotIncreasing {
         /// Index of the speed, from 0.
         index: usize,

@@ -1,5 +1,7 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
+use albatross_numerics::Figure;
+
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -101,7 +103,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A number lies outside the range accepted.
-    #[error("{what} is {value}, expected {expected}")]
+    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
     Domain {
         /// The number.
         what: &'static str,
@@ -142,8 +144,7 @@ pub enum Error {
     },
     /// A discrete-time pole without a real logarithm.
     #[error(
-        "the discrete pole at {pole} has no real logarithm: a pole at zero is a delay, a simple negative one can be doubled"
-    )]
+        "the discrete pole at {pole} has no real logarithm: a pole at zero is a delay, a simple negative one can be doubled", pole = Figure(*pole))]
     NoLogarithm {
         /// The pole in the z plane.
         pole: f64,

@@ -1,5 +1,7 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
+use albatross_numerics::Figure;
+
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -43,7 +45,7 @@ pub enum Error {
         problem: String,
     },
     /// A number of the geometry or of the flight condition is out of range.
-    #[error("{what} is {value}: {expected}")]
+    #[error("{what} is {value}: {expected}", value = Figure(*value))]
     Value {
         /// Which number.
         what: String,
@@ -120,8 +122,7 @@ pub enum Error {
     },
     /// The trim left the range of angles.
     #[error(
-        "trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached"
-    )]
+        "trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached", value_deg = Figure(*value_deg), limit_deg = Figure(*limit_deg))]
     TrimOutOfRange {
         /// Angle of attack or sideslip.
         variable: &'static str,

@@ -402,6 +402,13 @@ impl Case {
         if let Some((message, cure)) = self.number_out_of_range() {
             return refuse(message, &cure);
         }
+        let mach = self.flight.mach();
+        if mach >= 1.0 {
+            return refuse(
+                format!("[flight] is at Mach {mach:.3}: the aerodynamics are subsonic"),
+                "fly below Mach 0.9; speeds are true airspeeds in m/s (1 kt is 0.5144 m/s)",
+            );
+        }
         for surface in &self.aerodynamics.surfaces {
             for axis in std::iter::once(&surface.lra).chain(&surface.image_lra) {
                 if !self.structure.lra.contains_key(axis) {

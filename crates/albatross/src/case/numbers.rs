@@ -5,6 +5,7 @@
 
 use super::{Case, Damping, SignalCase};
 use albatross_flight::atmosphere::ALTITUDES;
+use albatross_numerics::Figure;
 use std::fmt;
 
 /// Beyond it a number of a case is a mistake, and products of such numbers overflow.
@@ -62,20 +63,6 @@ impl fmt::Display for Range {
                     "an altitude from {low} to {high} m, where the model of the atmosphere holds"
                 )
             }
-        }
-    }
-}
-
-/// A number in few letters, however large.
-pub(super) struct Figure(pub(super) f64);
-
-impl fmt::Display for Figure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        if self.0.is_finite() && size != 0.0 && !(1e-6..1e9).contains(&size) {
-            write!(f, "{:e}", self.0)
-        } else {
-            write!(f, "{}", self.0)
         }
     }
 }

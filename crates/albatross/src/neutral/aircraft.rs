@@ -126,7 +126,7 @@ const ELEVATOR: &str = "de";
 /// # Errors
 /// [`NeutralError::Json`] with the place.
 pub fn read(text: &str, file: &str) -> Result<NeutralAircraft, NeutralError> {
-    let document: Value = parse(text, file)?;
+    let document = parse(text, file)?;
     serde_json::from_value(unwrap_key(document, "inputs")).map_err(|e| NeutralError::Json {
         file: file.to_owned(),
         line: 1,

@@ -7,7 +7,7 @@
 pub mod aircraft;
 pub mod wing;
 
-use albatross_numerics::{C64, Mat, matrix};
+use albatross_numerics::{C64, Figure, Mat, matrix};
 use albatross_strip::{GeneralizedForces, StripShapes, forces::Downwash};
 use serde_json::{Value, json};
 
@@ -40,12 +40,12 @@ pub enum NeutralError {
         expected: String,
     },
     /// A value that cannot be used.
-    #[error("{file}: `{key}` is {value}, expected {expected}")]
+    #[error("{file}: `{key}` is {value}, expected {expected}", value = Figure(*value))]
     Value {
         /// File.
         file: String,
-        /// Key.
-        key: &'static str,
+        /// Key; entries of arrays as `key.row.column`, counted from 0.
+        key: String,
         /// Value found.
         value: f64,
         /// What was expected.
@@ -85,14 +85,49 @@ pub enum NeutralError {
     },
 }
 
+/// Beyond it a number of a model in SI units is a mistake, and products of such numbers overflow.
+const LARGEST: f64 = 1e30;
+
 /// Parses JSON text; errors carry file and place.
-fn parse<T: serde::de::DeserializeOwned>(text: &str, file: &str) -> Result<T, NeutralError> {
-    serde_json::from_str(text).map_err(|e| NeutralError::Json {
+fn parse(text: &str, file: &str) -> Result<Value, NeutralError> {
+    let document: Value = serde_json::from_str(text).map_err(|e| NeutralError::Json {
         file: file.to_owned(),
         line: e.line(),
         column: e.column(),
         message: e.to_string(),
-    })
+    })?;
+    if let Some((mut way, value)) = too_large(&document) {
+        way.reverse();
+        return Err(NeutralError::Value {
+            file: file.to_owned(),
+            key: way.join("."),
+            value,
+            expected: "a number of at most 1e30 in size; check its exponent and unit",
+        });
+    }
+    Ok(document)
+}
+
+/// The first number beyond [`LARGEST`] and the way to it, the innermost name first. Nesting is bounded by the parser.
+fn too_large(value: &Value) -> Option<(Vec<String>, f64)> {
+    let under = |v: &Value, name: &dyn Fn() -> String| {
+        too_large(v).map(|(mut way, number)| {
+            way.push(name());
+            (way, number)
+        })
+    };
+    match value {
+        Value::Number(number) => number
+            .as_f64()
+            .filter(|v| v.abs() > LARGEST)
+            .map(|v| (Vec::new(), v)),
+        Value::Array(values) => values
+            .iter()
+            .enumerate()
+            .find_map(|(i, v)| under(v, &|| i.to_string())),
+        Value::Object(map) => map.iter().find_map(|(name, v)| under(v, &|| name.clone())),
+        _ => None,
+    }
 }
 
 /// The part of a document under `key`, if it is an object with that key; else the document itself.

@@ -46,7 +46,7 @@ pub struct Wing {
 /// # Errors
 /// [`NeutralError::Json`] with the place.
 pub fn read(text: &str, file: &str) -> Result<Wing, NeutralError> {
-    let document: Value = parse(text, file)?;
+    let document = parse(text, file)?;
     let mut case = unwrap_key(document.clone(), "neutral_case");
     // A wing file may keep its density among the inputs that made it.
     if let (Value::Object(case), Some(rho)) = (&mut case, document.pointer("/inputs/rho"))
@@ -103,7 +103,7 @@ pub fn analyse(wing: &Wing, file: &str) -> Result<Value, NeutralError> {
     if !(wing.rho.is_finite() && wing.rho >= 0.0) {
         return Err(NeutralError::Value {
             file: file.to_owned(),
-            key: "rho",
+            key: "rho".to_owned(),
             value: wing.rho,
             expected: "a density of zero or more",
         });

@@ -8,6 +8,7 @@
 )]
 
 mod damage;
+mod damaged_cases;
 mod f25;
 mod faults;
 mod flight_f25;

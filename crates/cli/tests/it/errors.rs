@@ -403,6 +403,11 @@ const EXAMPLES: &[Example] = &[
         command: WING,
         damage: |c| c.write("wing.json", &wing("1.225", "-1.225")),
     },
+    Example {
+        name: "neutral-exponent",
+        command: WING,
+        damage: |c| c.write("wing.json", &wing("[1.0]], \"gamma\"", "[1e300]], \"gamma\"")),
+    },
 ];
 
 /// A wing of two strips and one mode, one text of it replaced.

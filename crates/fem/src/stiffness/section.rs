@@ -1,6 +1,7 @@
 //! Section constants of bars and beams along their length.
 
 use albatross_nastran::deck::{BarProperty, BeamProperty, Id, Pbar, Pbeam, Pbeaml, Section, SectionShape};
+use albatross_numerics::Figure;
 
 use crate::context::Context;
 use crate::error::Error;
@@ -45,7 +46,11 @@ pub(super) fn moduli(context: &Context<'_>, name: &str, id: Id, mid: Id) -> Resu
     Err(context.bad_element(
         "MAT1",
         mid,
-        format!("its moduli are E = {e}, G = {g}; expected numbers that are not negative"),
+        format!(
+            "its moduli are E = {}, G = {}; expected numbers that are not negative",
+            Figure(e),
+            Figure(g)
+        ),
     ))
 }
 
