@@ -29,7 +29,8 @@ const REACH: f64 = 5.371_920_351_148_152;
 /// exp(A) by scaling and squaring (Higham, SIAM J. Matrix Anal. Appl. 26, 2005, Algorithm 2.3), A balanced first.
 ///
 /// # Errors
-/// [`crate::Error::Numerics`] when A is not square or not finite, or when exp(A) overflows.
+/// [`crate::Error::Numerics`] when A is not square or not finite, or when exp(A) overflows; [`crate::Error::Domain`] when the
+/// norm of A does.
 pub fn exponential(a: MatRef<'_, f64>) -> Result<Mat<f64>> {
     let n = a.nrows();
     check_shape("the matrix", (n, a.ncols()), (n, n))?;
@@ -38,6 +39,13 @@ pub fn exponential(a: MatRef<'_, f64>) -> Result<Mat<f64>> {
     let norm = (0..n)
         .map(|j| (0..n).map(|i| balanced[(i, j)].abs()).sum::<f64>())
         .fold(0.0, f64::max);
+    if !norm.is_finite() {
+        return Err(crate::Error::Domain {
+            what: "the norm of the matrix",
+            value: norm,
+            expected: "a finite number; check the units of the states and the time step",
+        });
+    }
     let squarings = if norm > REACH {
         (norm / REACH).log2().ceil() as i32
     } else {

@@ -1,7 +1,9 @@
 //! Frequency response H(s) = C (sI - A)^-1 B + D, and its magnitude and unwrapped phase.
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use albatross_numerics::matrix::check_shape;
 use albatross_numerics::solve::ComplexLu;
 use albatross_numerics::{C64, Mat, eigen};
 
@@ -46,8 +48,10 @@ impl FrequencySolver {
     /// Prepares `system` for `method`.
     ///
     /// # Errors
-    /// [`Error::Method`] when an explicitly chosen method does not suit, [`Error::Numerics`].
+    /// [`Error::Method`] when an explicitly chosen method does not suit, [`Error::Numerics`], those of
+    /// [`StateSpace::check`].
     pub fn new(system: &StateSpace, method: Method) -> Result<Self> {
+        system.check()?;
         let system = balanced(system.without_idle_states());
         let form = match method {
             Method::Lu => Form::Lu,
@@ -64,8 +68,10 @@ impl FrequencySolver {
     /// Prepares `system` with the named states eliminated as lags.
     ///
     /// # Errors
-    /// [`Error::Method`] when the block of those states is not diagonal, [`Error::UnknownSignal`].
+    /// [`Error::Method`] when the block of those states is not diagonal, [`Error::UnknownSignal`], those of
+    /// [`StateSpace::check`].
     pub fn with_lags(system: &StateSpace, lags: &[&str]) -> Result<Self> {
+        system.check()?;
         for name in lags {
             system.state_index(name)?;
         }
@@ -80,7 +86,7 @@ impl FrequencySolver {
     /// H(s), outputs x inputs, at a point `s` in rad/s.
     ///
     /// # Errors
-    /// [`Error::PoleAtFrequency`] when `s` is an eigenvalue, [`Error::Domain`] when it is not finite.
+    /// [`Error::PoleAtFrequency`] when `s` is an eigenvalue, [`Error::Domain`] when it or the response is not finite.
     pub fn evaluate(&self, s: C64) -> Result<Mat<C64>> {
         if !s.is_finite() {
             return Err(Error::Domain {
@@ -89,11 +95,12 @@ impl FrequencySolver {
                 expected: "a finite number",
             });
         }
-        match &self.form {
-            Form::Lu => lu_evaluate(&self.system, s),
-            Form::Eigen(values, cv, vb) => eigen_evaluate(&self.system, (values, cv, vb), s),
-            Form::LagReduced(reduced) => Ok(reduced.evaluate(&[s])?.swap_remove(0)),
-        }
+        let h = match &self.form {
+            Form::Lu => lu_evaluate(&self.system, s)?,
+            Form::Eigen(values, cv, vb) => eigen_evaluate(&self.system, (values, cv, vb), s)?,
+            Form::LagReduced(reduced) => reduced.evaluate(&[s])?.swap_remove(0),
+        };
+        finite(h, s)
     }
 
     /// H at i omega for each circular frequency (rad/s).
@@ -104,7 +111,9 @@ impl FrequencySolver {
         let values = match &self.form {
             Form::LagReduced(reduced) if omega_rad_s.iter().all(|w| w.is_finite()) => {
                 let points: Vec<C64> = omega_rad_s.iter().map(|&w| C64::new(0.0, w)).collect();
-                reduced.evaluate(&points)?
+                let values = reduced.evaluate(&points)?;
+                let with_points = values.into_iter().zip(points);
+                with_points.map(|(h, s)| finite(h, s)).collect::<Result<_>>()?
             }
             _ => omega_rad_s
                 .iter()
@@ -142,7 +151,11 @@ impl FrequencySolver {
             .map(|v| v.im)
             .collect();
         poles.sort_by(f64::total_cmp);
-        let phase = |w: f64| self.evaluate(C64::new(0.0, w)).map(|h| principal_deg(h[(i, j)]));
+        let left = Cell::new(0_usize);
+        let phase = |w: f64| {
+            left.set(left.get().saturating_sub(1));
+            self.evaluate(C64::new(0.0, w)).map(|h| principal_deg(h[(i, j)]))
+        };
 
         let mut unwrapped: Vec<f64> = Vec::with_capacity(omega_rad_s.len());
         let Some(&first) = omega_rad_s.first() else {
@@ -160,7 +173,8 @@ impl FrequencySolver {
             for stop in inside.into_iter().chain([next]) {
                 // A pole exactly on the axis has no phase: step over it.
                 let Ok(at_stop) = phase(stop) else { continue };
-                total += turn_deg(&phase, (at, angle), (stop, at_stop), 40)?;
+                left.set(MOST_HALVINGS);
+                total += turn_deg(&phase, (at, angle), (stop, at_stop), &left)?;
                 (at, angle) = (stop, at_stop);
             }
             if at < next {
@@ -172,21 +186,28 @@ impl FrequencySolver {
     }
 }
 
-/// Change of phase between two frequencies, halving while it is too large to be told from its complement.
+/// Points that one interval may be halved into. A response that cancels to rounding has a phase of noise, for which no
+/// number is enough.
+const MOST_HALVINGS: usize = 2000;
+
+/// Change of phase between two frequencies, halving while it is too large to be told from its complement and `left`
+/// points remain.
 fn turn_deg(
     phase: &impl Fn(f64) -> Result<f64>,
     (w0, p0): (f64, f64),
     (w1, p1): (f64, f64),
-    halvings: usize,
+    left: &Cell<usize>,
 ) -> Result<f64> {
     let difference = wrap_deg(p1 - p0);
     let middle = 0.5 * (w0 + w1);
-    if difference.abs() < 60.0 || halvings == 0 || middle <= w0 || middle >= w1 {
+    // A difference that is no number is not halved either.
+    let small = difference.is_nan() || difference.abs() < 60.0;
+    if small || left.get() == 0 || middle <= w0 || middle >= w1 {
         return Ok(difference);
     }
     let at_middle = phase(middle)?;
-    Ok(turn_deg(phase, (w0, p0), (middle, at_middle), halvings - 1)?
-        + turn_deg(phase, (middle, at_middle), (w1, p1), halvings - 1)?)
+    Ok(turn_deg(phase, (w0, p0), (middle, at_middle), left)?
+        + turn_deg(phase, (middle, at_middle), (w1, p1), left)?)
 }
 
 /// Response of `system` at i omega for each circular frequency (rad/s), method chosen automatically.
@@ -195,6 +216,18 @@ fn turn_deg(
 /// [`Error::PoleAtFrequency`], [`Error::Domain`].
 pub fn frequency_response(system: &StateSpace, omega_rad_s: &[f64]) -> Result<Response> {
     FrequencySolver::new(system, Method::Auto)?.response(omega_rad_s)
+}
+
+/// The response, unless it overflowed.
+fn finite(h: Mat<C64>, s: C64) -> Result<Mat<C64>> {
+    if (0..h.ncols()).all(|j| (0..h.nrows()).all(|i| h[(i, j)].is_finite())) {
+        return Ok(h);
+    }
+    Err(Error::Domain {
+        what: "the frequency at which the response overflows",
+        value: s.im,
+        expected: "a system whose numbers stay in range; check the units of its states, inputs and outputs",
+    })
 }
 
 /// State scaling by powers of two that balances A.
@@ -300,13 +333,21 @@ impl Response {
     /// The response from one input to one output.
     ///
     /// # Errors
-    /// [`Error::UnknownSignal`] with the names there are.
+    /// [`Error::UnknownSignal`] with the names there are, [`Error::Numerics`] for values of another size.
     pub fn get(&self, output: &str, input: &str) -> Result<Channel> {
         let i = index_of(SignalKind::Output, &self.outputs, output)?;
         let j = index_of(SignalKind::Input, &self.inputs, input)?;
         Ok(Channel {
             omega_rad_s: self.omega_rad_s.clone(),
-            values: self.values.iter().map(|h| h[(i, j)]).collect(),
+            values: self
+                .values
+                .iter()
+                .map(|h| {
+                    let size = (self.outputs.len(), self.inputs.len());
+                    check_shape("a response", (h.nrows(), h.ncols()), size)?;
+                    Ok(h[(i, j)])
+                })
+                .collect::<Result<Vec<_>>>()?,
         })
     }
 }

@@ -82,8 +82,9 @@ impl Mode {
 /// All modes of a system, modulus ascending, with the states that carry them.
 ///
 /// # Errors
-/// [`crate::Error::Numerics`] when the eigenproblem fails.
+/// [`crate::Error::Numerics`] when the eigenproblem fails, those of [`StateSpace::check`].
 pub fn mode_table(system: &StateSpace) -> Result<Vec<Mode>> {
+    system.check()?;
     let eigen = eigen_both(system.a.as_ref())?;
     Ok((0..eigen.values.len())
         .filter(|&k| eigen.values[k].im >= 0.0)
@@ -94,8 +95,9 @@ pub fn mode_table(system: &StateSpace) -> Result<Vec<Mode>> {
 /// The modes of `system` nearest to the given eigenvalues (of tracked modes, say), in the order given.
 ///
 /// # Errors
-/// [`crate::Error::Numerics`] when the eigenproblem fails.
+/// [`crate::Error::Numerics`] when the eigenproblem fails, those of [`StateSpace::check`].
 pub fn mode_table_of(system: &StateSpace, values: &[C64]) -> Result<Vec<Mode>> {
+    system.check()?;
     let eigen = eigen_both(system.a.as_ref())?;
     let nearest = |value: C64| {
         let value = C64::new(value.re, value.im.abs());

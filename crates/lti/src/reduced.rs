@@ -9,13 +9,12 @@
 //! so that [sx; y] = (S0 + sum_g w_g(s) S_g) [x; u] with one real matrix S_g = [Axz; Cz]_g [Azx, Bz]_g per
 //! distinct rate l_g and w_g = 1/(s - l_g). Only a matrix of the order of the core is factorised.
 //!
-//! Equations: THEORY (26a).
-
-//!
 //! Lags whose S_g differ by a factor alone, as the two of one strip do, share one matrix and add up their weights. States
 //! that integrate one other core state, `s x_i = a x_j` (modal amplitudes are integrals of their rates), are put in by
 //! substitution, so that a matrix of half the order is left. Frequencies are taken in batches: the sum over g for all of
 //! them is one matrix product.
+//!
+//! Equations: THEORY (26a).
 
 use albatross_numerics::faer::linalg::solvers::{PartialPivLu, Solve};
 use albatross_numerics::matrix::axpy;
@@ -31,6 +30,9 @@ const BATCH: usize = 16;
 const ALIKE: f64 = 1e-14;
 /// Ratio of pivots from which on the equilibrated factorisation with its condition estimate decides.
 const LEAST_PIVOT: f64 = 1e-9;
+
+/// Most numbers of the matrices of all rates, 0.5 GB.
+const MOST_NUMBERS: usize = 1 << 26;
 
 /// Lags that share a matrix: their rates with the factor of each.
 type Shared = Vec<(f64, f64)>;
@@ -139,6 +141,17 @@ impl LagReduced {
 
         let mut by_rate = lags.to_vec();
         by_rate.sort_by(|&p, &q| system.a[(p, p)].total_cmp(&system.a[(q, q)]).then(p.cmp(&q)));
+        // Modes of a structure, each with a rate of its own and tied to its own amplitude, are no lags in this sense.
+        let rates = by_rate
+            .chunk_by(|&p, &q| system.a[(p, p)] == system.a[(q, q)])
+            .count();
+        if rows.len().saturating_mul(columns.len()).saturating_mul(rates) > MOST_NUMBERS {
+            return Err(refuse(format!(
+                "{rates} rates couple {} rows with {} columns: choose LU",
+                rows.len(),
+                columns.len()
+            )));
+        }
         let condensed: Vec<(f64, Vec<f64>)> = by_rate
             .chunk_by(|&p, &q| system.a[(p, p)] == system.a[(q, q)])
             .map(|members| {

@@ -90,9 +90,11 @@ fn column(kind: SignalKind, signals: &[Signal], table: &RowMatrix, name: &str) -
 /// (Van Loan, IEEE Trans. Automatic Control 23, 1978).
 ///
 /// # Errors
-/// [`Error::Domain`] for a step that is not positive, [`Error::Numerics`] when the exponential overflows.
+/// [`Error::Domain`] for a step that is not positive, [`Error::Numerics`] when the exponential overflows, those of
+/// [`StateSpace::check`].
 pub fn discretise(system: &StateSpace, dt: f64, hold: Hold) -> Result<Discrete> {
     check_step(dt)?;
+    system.check()?;
     let (n, m) = (system.states.len(), system.inputs.len());
     let augmented = Mat::from_fn(n + 2 * m, n + 2 * m, |i, j| {
         if i < n && j < n {
@@ -162,13 +164,17 @@ pub fn simulate(
     Ok(history)
 }
 
+/// Most numbers that a history may hold, 8 GB.
+const MOST_NUMBERS: usize = 1_000_000_000;
+
 /// Response to a continuous input by `steps` steps of the classical Runge-Kutta method.
 ///
 /// `input(t, stage, u)` writes the input at `t`; at the end of a step ([`Stage::End`]) a discontinuous input
 /// gives its limit from the left, and at [`Stage::Start`] the one from the right. Outputs use the latter.
 ///
 /// # Errors
-/// [`Error::Domain`] for a step that is not positive, [`Error::Numerics`] for an initial state of the wrong length.
+/// [`Error::Domain`] for a step that is not positive and for more than 1e9 numbers, [`Error::Numerics`] for an initial
+/// state of the wrong length, those of [`StateSpace::check`].
 pub fn simulate_rk4(
     system: &StateSpace,
     dt: f64,
@@ -177,6 +183,16 @@ pub fn simulate_rk4(
     mut input: impl FnMut(f64, Stage, &mut [f64]),
 ) -> Result<History> {
     check_step(dt)?;
+    system.check()?;
+    let width = 1 + system.states.len() + system.outputs.len();
+    let numbers = steps.checked_add(1).and_then(|n| n.checked_mul(width));
+    if numbers.is_none_or(|n| n > MOST_NUMBERS) {
+        return Err(Error::Domain {
+            what: "the number of steps",
+            value: steps as f64,
+            expected: "a history of at most 1e9 numbers, states and outputs together",
+        });
+    }
     let [a, b, c, d] = [&system.a, &system.b, &system.c, &system.d].map(|m| PreparedMatrix::new(m.as_ref()));
     let mut x = initial_state(system, initial)?;
     let mut u = vec![0.0; system.inputs.len()];

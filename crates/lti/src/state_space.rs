@@ -62,12 +62,31 @@ impl StateSpace {
         inputs: Vec<Signal>,
         outputs: Vec<Signal>,
     ) -> Result<Self> {
-        let (nx, nu, ny) = (states.len(), inputs.len(), outputs.len());
+        let system = Self {
+            a,
+            b,
+            c,
+            d,
+            states,
+            inputs,
+            outputs,
+        };
+        system.check()?;
+        Ok(system)
+    }
+
+    /// Whether matrices and names belong together, as [`StateSpace::try_new`] asks for: the fields are open, and may have
+    /// been changed since. Every function that takes a system begins with it.
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::DuplicateName`], [`Error::Numerics`] for entries that are not finite.
+    pub fn check(&self) -> Result<()> {
+        let (nx, nu, ny) = (self.states.len(), self.inputs.len(), self.outputs.len());
         let wanted: [(&'static str, MatRef<'_, f64>, (usize, usize)); 4] = [
-            ("A", a.as_ref(), (nx, nx)),
-            ("B", b.as_ref(), (nx, nu)),
-            ("C", c.as_ref(), (ny, nx)),
-            ("D", d.as_ref(), (ny, nu)),
+            ("A", self.a.as_ref(), (nx, nx)),
+            ("B", self.b.as_ref(), (nx, nu)),
+            ("C", self.c.as_ref(), (ny, nx)),
+            ("D", self.d.as_ref(), (ny, nu)),
         ];
         for (matrix, m, expected) in wanted {
             let found = (m.nrows(), m.ncols());
@@ -84,9 +103,9 @@ impl StateSpace {
             check_finite(matrix, m)?;
         }
         for (kind, signals) in [
-            (SignalKind::State, &states),
-            (SignalKind::Input, &inputs),
-            (SignalKind::Output, &outputs),
+            (SignalKind::State, &self.states),
+            (SignalKind::Input, &self.inputs),
+            (SignalKind::Output, &self.outputs),
         ] {
             let mut seen = HashSet::new();
             if let Some(signal) = signals.iter().find(|s| !seen.insert(&s.name)) {
@@ -96,15 +115,7 @@ impl StateSpace {
                 });
             }
         }
-        Ok(Self {
-            a,
-            b,
-            c,
-            d,
-            states,
-            inputs,
-            outputs,
-        })
+        Ok(())
     }
 
     /// A system with the names x1, x2, ..., u1, ..., y1, ... and unit "1".
@@ -152,8 +163,9 @@ impl StateSpace {
     /// The system from the named inputs to the named outputs, in the order given, with all states.
     ///
     /// # Errors
-    /// [`Error::UnknownSignal`], [`Error::DuplicateName`].
+    /// [`Error::UnknownSignal`], [`Error::DuplicateName`], those of [`StateSpace::check`].
     pub fn select(&self, inputs: &[&str], outputs: &[&str]) -> Result<Self> {
+        self.check()?;
         let u = inputs
             .iter()
             .map(|name| self.input_index(name))
@@ -191,6 +203,8 @@ impl StateSpace {
     /// # Errors
     /// [`Error::Mismatch`] unless the outputs here are as many as the inputs there.
     pub fn series(&self, next: &Self) -> Result<Self> {
+        self.check()?;
+        next.check()?;
         if self.outputs.len() != next.inputs.len() {
             let (left, right) = (self.outputs.len(), next.inputs.len());
             return Err(Error::Mismatch {
@@ -219,6 +233,8 @@ impl StateSpace {
     /// # Errors
     /// [`Error::Mismatch`] unless inputs and outputs are equally many.
     pub fn parallel(&self, other: &Self) -> Result<Self> {
+        self.check()?;
+        other.check()?;
         for (joint, left, right) in [
             (
                 "inputs of the parallel connection",
@@ -253,6 +269,8 @@ impl StateSpace {
     /// [`Error::Mismatch`] unless K takes all outputs and gives all inputs; [`Error::Numerics`] with a singular
     /// matrix when the direct paths make the loop ill-posed (I + D_K D singular).
     pub fn feedback(&self, controller: &Self) -> Result<Self> {
+        self.check()?;
+        controller.check()?;
         for (joint, left, right) in [
             (
                 "outputs to the controller",
@@ -293,8 +311,12 @@ impl StateSpace {
     /// Drops the states that no input reaches or that reach no output, judged by the pattern of zeros.
     ///
     /// The input-output behaviour is unchanged. Position and heading usually go: as integrators they would
-    /// otherwise forbid a response at zero frequency to which they contribute nothing.
+    /// otherwise forbid a response at zero frequency to which they contribute nothing. A system that fails its
+    /// [`StateSpace::check`] comes back as it is.
     pub fn without_idle_states(&self) -> Self {
+        if self.check().is_err() {
+            return self.clone();
+        }
         let n = self.states.len();
         let driven = reach(
             n,

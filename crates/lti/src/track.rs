@@ -24,6 +24,7 @@ mod matching;
 mod spectrum;
 
 use albatross_numerics::eigen::eigen_both;
+use albatross_numerics::matrix::check_shape;
 use albatross_numerics::{C64, Mat, MatRef};
 
 use crate::modes::participation;
@@ -183,7 +184,7 @@ impl Tracker {
     /// [`Error::Unresolved`], [`Error::Numerics`]; the tracker then stays at the last matrix.
     pub fn follow(&mut self, a: MatRef<'_, f64>) -> Result<Followed> {
         let shape = (self.matrix.nrows(), self.matrix.ncols());
-        albatross_numerics::matrix::check_shape("the matrix to follow to", (a.nrows(), a.ncols()), shape)?;
+        check_shape("the matrix to follow to", (a.nrows(), a.ncols()), shape)?;
         let from = self.matrix.clone();
         let n = shape.0;
         self.follow_path(|t| {
@@ -213,6 +214,8 @@ impl Tracker {
             // Land on 1 exactly.
             let next_t = if t + 1.001 * step >= 1.0 { 1.0 } else { t + step };
             let a = path(next_t)?;
+            let size = |m: &Mat<f64>| (m.nrows(), m.ncols());
+            check_shape("the matrix of the path", size(&a), size(&self.matrix))?;
             let next = Spectrum::of(a.as_ref())?;
             report.decompositions += 1;
             match match_blocks(&spectrum, &blocks, &next, self.options.tolerance) {
@@ -301,6 +304,15 @@ impl Tracker {
 }
 
 pub(crate) fn check_options(options: &TrackOptions) -> Result<()> {
+    // A path of accepted steps alone ends within the work that is allowed, too.
+    let reach = options.largest_step * options.most_decompositions as f64;
+    if reach < 1.0 {
+        return Err(Error::Domain {
+            what: "the largest step times the most decompositions",
+            value: reach,
+            expected: "1 or more, the length of a path",
+        });
+    }
     let checks = [
         ("the largest step", options.largest_step, 0.0, 1.0),
         ("the least step", options.least_step, 0.0, options.largest_step),

@@ -50,8 +50,9 @@ impl Zpk {
     /// Emami-Naeini and Van Dooren, Automatica 18, 1982).
     ///
     /// # Errors
-    /// [`Error::NotSiso`], [`Error::Numerics`].
+    /// [`Error::NotSiso`], [`Error::Numerics`], those of [`StateSpace::check`].
     pub fn from_state_space(system: &StateSpace) -> Result<Self> {
+        system.check()?;
         check_siso("zeros and poles", system)?;
         let system = system.without_idle_states();
         let poles = eigen::eigenvalues(system.a.as_ref())?;

@@ -92,6 +92,28 @@ fn isolate(a: MatRef<'_, f64>) -> (Vec<usize>, std::ops::Range<usize>) {
     (head.into_iter().chain(core).chain(tail).collect(), range)
 }
 
+/// A matrix whose squares would overflow, and the power of two that takes its eigenvalues back; none for any other.
+fn shrunk(a: MatRef<'_, f64>) -> Option<(Mat<f64>, f64)> {
+    const LARGEST: f64 = 1e150;
+    const FACTOR: f64 = f64::from_bits((1023 + 512) << 52);
+    let large = (0..a.ncols()).any(|j| (0..a.nrows()).any(|i| a[(i, j)].abs() > LARGEST));
+    large.then(|| {
+        (
+            Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / FACTOR),
+            FACTOR,
+        )
+    })
+}
+
+/// Eigenvalues of a shrunk matrix taken back.
+fn regrown(values: &mut [C64], factor: f64, a: MatRef<'_, f64>) -> Result<()> {
+    values.iter_mut().for_each(|v| *v *= factor);
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(no_convergence(a))
+}
+
 /// All eigenvalues of a real square matrix, in the order of [`order_by_modulus`].
 ///
 /// The matrix is permuted and balanced first, so the result does not depend on the units of the states.
@@ -100,6 +122,11 @@ fn isolate(a: MatRef<'_, f64>) -> (Vec<usize>, std::ops::Range<usize>) {
 /// [`Error::Shape`], [`Error::NonFinite`], [`Error::NoConvergence`].
 pub fn eigenvalues(a: MatRef<'_, f64>) -> Result<Vec<C64>> {
     check_square("the matrix", a)?;
+    if let Some((smaller, factor)) = shrunk(a) {
+        let mut values = eigenvalues(smaller.as_ref())?;
+        regrown(&mut values, factor, a)?;
+        return Ok(values);
+    }
     let (order, core) = isolate(a);
     let core_states = &order[core.clone()];
     let mut values: Vec<C64> = order[..core.start]
@@ -163,6 +190,11 @@ fn eigen_sides(a: MatRef<'_, f64>, with_left: bool) -> Result<(Vec<C64>, Mat<C64
     let n = a.nrows();
     if n == 0 {
         return Ok((Vec::new(), Mat::zeros(0, 0), Mat::zeros(0, 0)));
+    }
+    if let Some((smaller, factor)) = shrunk(a) {
+        let (mut values, right, left) = eigen_sides(smaller.as_ref(), with_left)?;
+        regrown(&mut values, factor, a)?;
+        return Ok((values, right, left));
     }
     let (order, _) = isolate(a);
     let permuted = Mat::from_fn(n, n, |i, j| a[(order[i], order[j])]);

@@ -87,30 +87,6 @@ pub enum Error {
         /// The offending input.
         what: &'static str,
     },
-    /// A scalar root is not enclosed by the interval given.
-    #[error("no sign change between {low} (value {at_low:e}) and {high} (value {at_high:e})", low = Figure(*low), high = Figure(*high))]
-    NotBracketed {
-        /// Lower end of the interval.
-        low: f64,
-        /// Upper end of the interval.
-        high: f64,
-        /// Function value at the lower end.
-        at_low: f64,
-        /// Function value at the upper end.
-        at_high: f64,
-    },
-    /// An iteration for a root stopped short of its tolerance.
-    #[error("{what} stopped after {iterations} iterations with residual {residual:e} (equation {worst})")]
-    NotConverged {
-        /// The method.
-        what: &'static str,
-        /// Iterations spent.
-        iterations: usize,
-        /// Largest magnitude among the scaled residuals.
-        residual: f64,
-        /// Index of the equation with that residual.
-        worst: usize,
-    },
     /// An argument lies outside the range where a function is defined.
     #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
     Domain {

@@ -13,7 +13,7 @@
 //! | [`interp`] | linear, PCHIP, not-a-knot cubic and Akima interpolation on strictly increasing points |
 //! | [`integrate`] | fixed-step RK4, and ETDRK4 with the diagonal part of the equation solved exactly |
 //! | [`special`] | Bessel functions of real argument, K0 and K1 of complex argument |
-//! | [`root`] | bracketed scalar roots; damped Newton for small systems |
+//! | [`Figure`] | a number in a message, in few letters |
 //! | [`matrix`] | row-major matrices with fast products on slices, conversions, checks |
 //!
 //! Everything is deterministic and runs on the calling thread. Inputs that are not finite, have the wrong
@@ -43,7 +43,6 @@ pub mod integrate;
 pub mod interp;
 mod kernel;
 pub mod matrix;
-pub mod root;
 pub mod solve;
 pub mod special;
 

@@ -133,7 +133,10 @@ impl RowMatrix {
 
     /// Row `i`; empty when there is no such row.
     pub fn row(&self, i: usize) -> &[f64] {
-        self.data.get(i * self.cols..(i + 1) * self.cols).unwrap_or(&[])
+        let first = i.saturating_mul(self.cols);
+        self.data
+            .get(first..first.saturating_add(self.cols))
+            .unwrap_or(&[])
     }
 
     /// Copy as a faer matrix.

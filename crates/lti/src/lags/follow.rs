@@ -43,6 +43,9 @@ pub fn follow(from: &LagForm, to: &LagForm, roots: &[Root], options: TrackOption
     check_options(&options)?;
     let size = |form: &LagForm| (form.core_count(), form.lag_count());
     check_shape("the form to follow to", size(to), size(from))?;
+    for root in roots {
+        check_shape("a root to follow", root.size(), size(from))?;
+    }
     let mut found = FollowedRoots {
         roots: roots.to_vec(),
         confidence: vec![1.0; roots.len()],

@@ -54,6 +54,11 @@ impl Root {
             .sum()
     }
 
+    /// Core states and lags, as of the form it belongs to.
+    pub(super) fn size(&self) -> (usize, usize) {
+        (self.right.len(), self.right_lags.re.len())
+    }
+
     fn right_side(&self) -> (&[C64], &Parts) {
         (&self.right, &self.right_lags)
     }
