@@ -1,4 +1,5 @@
-//! `cargo xtask ci`: every check that a change must pass, in order, with a summary.
+//! `cargo xtask ci`: every check that a change must pass, in order, with a summary. The same list stands in `.ci/run`, which
+//! stops at the first failure.
 
 use crate::error::Error;
 use crate::{examples, first_hour, tidy, validate, workspace};

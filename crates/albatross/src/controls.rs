@@ -2,7 +2,7 @@
 //!
 //! AVL's derivatives give a control's total lift and moments, its strip files for incidence alone do not say where it
 //! acts. On the strips between two sections that declare the control, thin-airfoil theory gives the lift as a share
-//! `tau` of the strip's own slope and the moment about the quarter chord; one factor a control then scales them so that
+//! `tau` of the strip's own slope and the moment about the quarter chord; one factor per control then scales them so that
 //! lift, side force and rolling moment meet the rigid derivatives in the least-squares sense.
 //!
 //! Equations: THEORY (16), (16a).
@@ -22,7 +22,7 @@ pub struct ControlLoads {
     pub loads: StripLoads,
     /// Incidence of equal lift, `c_l,delta / c_l,alpha`, strips x controls.
     pub incidence: Mat<f64>,
-    /// What was assumed, one line a control.
+    /// What was assumed, one line per control.
     pub notes: Vec<String>,
 }
 

@@ -46,14 +46,6 @@ pub enum Error {
         /// Cause.
         source: std::io::Error,
     },
-    /// A file cannot be written.
-    #[error("{file}: cannot be written: {source}")]
-    Write {
-        /// File.
-        file: String,
-        /// Cause.
-        source: std::io::Error,
-    },
     /// A table or JSON file is malformed.
     #[error("{}: {message}; expected {expected}", place(file, *line))]
     Table {

@@ -44,7 +44,7 @@ pub mod controls;
 pub mod inputs;
 pub mod lattice;
 pub mod linear;
-pub mod mode_table;
+mod mode_table;
 pub mod model;
 pub mod modes;
 #[warn(clippy::indexing_slicing, clippy::string_slice)]

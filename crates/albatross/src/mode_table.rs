@@ -100,6 +100,18 @@ struct Ends {
 fn ends(model: &Model, trimmed: &Trimmed) -> Result<Ends, Error> {
     let layout = trimmed.equations.layout();
     let rigid = with_fidelity(model, Fidelity::Rigid)?;
+    let of_rigid = rigid.equations.layout();
+    if (of_rigid.attitude, of_rigid.position) != (layout.attitude, layout.position) {
+        let states = |n: usize, attitude| format!("{n} rigid-body states, attitude by {attitude:?}");
+        return Err(Error::Mismatch {
+            what: "trimmed model of the mode table".to_owned(),
+            found: states(layout.n_rigid(), layout.attitude),
+            expected: format!(
+                "{}; trim with `analysis::trimmed`",
+                states(of_rigid.n_rigid(), of_rigid.attitude)
+            ),
+        });
+    }
     let moving = moving_states(&trimmed.system);
     let n_rigid = moving.iter().filter(|&&i| i < layout.n_rigid()).count();
     let rigid_a = pick(&rigid.system.a, &moving[..n_rigid]);

@@ -30,7 +30,7 @@ pub fn solve(deck: &Deck, structure: &StructureCase) -> Result<(ModalResults, Ve
     };
     let model = FemModel::assemble(deck, &options)?;
     let count = match &structure.modes {
-        ModeChoice::Lowest(n) => n + BEYOND,
+        ModeChoice::Lowest(n) => n.saturating_add(BEYOND),
         ModeChoice::Numbers(numbers) => numbers.iter().copied().max().unwrap_or(0),
     };
     let modes = model.modes(&ModesOptions {

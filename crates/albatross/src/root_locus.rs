@@ -57,9 +57,12 @@ pub struct RootLocus {
     pub notes: Vec<String>,
 }
 
-/// Speeds around that of the flight point, which is one of them: `count` or one more, from `low` to `high` times it.
+/// Most speeds of [`speeds_around`].
+const MOST_SPEEDS: usize = 10_000;
+
+/// Speeds around that of the flight point, which is one of them: `count` (2 to 10 000) from `low` to `high` times it.
 pub fn speeds_around(speed: f64, low: f64, high: f64, count: usize) -> Vec<f64> {
-    let steps = count.max(2) - 1;
+    let steps = count.clamp(2, MOST_SPEEDS) - 1;
     let step = (high - low) / steps as f64;
     let mut factors: Vec<f64> = (0..=steps).map(|i| low + step * i as f64).collect();
     if low < 1.0 && high > 1.0 {

@@ -62,10 +62,12 @@ pub fn mode_shapes(inputs: &Inputs, model: &Model) -> Shapes {
         .collect();
 
     let form = inputs.case.aerodynamics.dihedral;
-    for (k, shape) in shapes.shapes.iter_mut().enumerate() {
-        for (j, strip) in set.strips.iter().enumerate() {
+    let (phi, gamma) = (&set.shapes.phi, &set.shapes.gamma);
+    let (strips, modes) = (phi.nrows().min(gamma.nrows()), phi.ncols().min(gamma.ncols()));
+    for (k, shape) in shapes.shapes.iter_mut().enumerate().take(modes) {
+        for (j, strip) in set.strips.iter().enumerate().take(strips) {
             let (vertical, lateral) = form.components(strip);
-            let (phi, gamma) = (set.shapes.phi[(j, k)], set.shapes.gamma[(j, k)]);
+            let (phi, gamma) = (phi[(j, k)], gamma[(j, k)]);
             let corners = points.iter().skip(first_corner + 4 * j).take(4);
             shape.displacement.extend(corners.map(|corner| {
                 let normal = phi - (corner[0] - strip.x_lra) * gamma;

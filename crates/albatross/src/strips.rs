@@ -35,6 +35,15 @@ pub fn strip_set(inputs: &Inputs, basis: &ModalBasis, variant: &VariantCase) -> 
     let aerodynamics = &inputs.case.aerodynamics;
     let ([low, high], [low_deg, high_deg]) = (&inputs.strips, inputs.strip_alphas_deg);
     let all = slopes::from_avl(low, low_deg, high, high_deg)?;
+    if let Some(slopes) = &inputs.slopes_between
+        && (slopes.nrows(), slopes.ncols()) != (all.len(), all.len())
+    {
+        return Err(Error::Mismatch {
+            what: "lift slopes between strips".into(),
+            found: format!("{} x {}", slopes.nrows(), slopes.ncols()),
+            expected: format!("{0} x {0}, one for each pair of the strips", all.len()),
+        });
+    }
     let source = aerodynamics
         .files()
         .map_or(&aerodynamics.geometry, |(_, strips)| &strips[0].file);

@@ -202,6 +202,9 @@ pub(crate) fn modes_table(options: &CaseOptions) -> Result<(), Failure> {
 
 pub(crate) fn bode(options: &BodeOptions) -> Result<(), Failure> {
     let Loaded { inputs, model } = load_with_notes(&options.case)?;
+    if inputs.case.sensors.is_empty() {
+        return Err(without("frequency response", "[[sensor]]").into());
+    }
     let trimmed = analysis::trimmed(&model)?;
     let response = response(
         &inputs,
@@ -213,6 +216,15 @@ pub(crate) fn bode(options: &BodeOptions) -> Result<(), Failure> {
         print_json(&bode_json(&response)?)
     } else {
         print(&bode_table(&response)?.to_text())
+    }
+}
+
+/// An analysis of what the case does not have.
+fn without(what: &str, table: &str) -> albatross::Error {
+    albatross::Error::Mismatch {
+        what: what.to_owned(),
+        found: format!("no {table} in the case"),
+        expected: format!("one at least: add a {table}"),
     }
 }
 
@@ -259,11 +271,7 @@ pub(crate) fn simulate(options: &SimulateOptions) -> Result<(), Failure> {
             .case
             .manoeuvres
             .first()
-            .ok_or_else(|| albatross::Error::UnknownName {
-                kind: "manoeuvre",
-                name: "(first)".into(),
-                known: "none; add a [[manoeuvre]] to the case".into(),
-            })?,
+            .ok_or_else(|| without("simulation", "[[manoeuvre]]"))?,
     };
     let history = analysis::simulate_case(&inputs, &trimmed, case)?;
     if let Some(path) = &options.csv {

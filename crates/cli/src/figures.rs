@@ -19,7 +19,7 @@ fn shown(unit: &str) -> (&str, f64) {
     }
 }
 
-/// One panel a channel; channels that stand still are left out.
+/// One panel per channel; channels that stand still are left out.
 pub(crate) fn history(name: &str, history: &TimeHistory) -> LinePlot {
     let mut plot = LinePlot::new(name, Axis::new("Time", "s"));
     for (channel, series) in history.channels.iter().zip(&history.series) {
@@ -298,7 +298,7 @@ pub(crate) fn frequency_and_damping(locus: &RootLocus, modes: &ModeTable, flight
     .with(panel("Damping ratio", "", damping, 380.0).with_guide_y(0.0, ""))
 }
 
-/// A line a branch of what `shown` makes of its values, and its name at the flight point; names nearer than a part of the
+/// A line per branch of what `shown` makes of its values, and its name at the flight point; names nearer than a part of the
 /// range are left out but for the first.
 fn over_speed(
     locus: &RootLocus,

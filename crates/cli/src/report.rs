@@ -22,7 +22,8 @@ pub(crate) struct Results<'a> {
     pub(crate) modes: &'a [StructuralMode],
     pub(crate) trimmed: &'a Trimmed,
     pub(crate) mode_table: &'a ModeTable,
-    pub(crate) response: &'a Response,
+    /// None without sensors.
+    pub(crate) response: Option<&'a Response>,
     pub(crate) locus: &'a RootLocus,
     pub(crate) flights: &'a [(String, TimeHistory)],
 }
@@ -174,10 +175,14 @@ fn locus(results: &Results<'_>) -> Result<Section, ReportError> {
 
 fn response(results: &Results<'_>) -> Result<Section, Failure> {
     let mut section = Section::new("Frequency response");
-    let plot = figures::bode(&results.model.variant.name, results.response)?;
+    let Some(of_sensors) = results.response else {
+        section.paragraph("The case has no sensor.");
+        return Ok(section);
+    };
+    let plot = figures::bode(&results.model.variant.name, of_sensors)?;
     section
         .figure(&plot, "Of the linearised aircraft, lags eliminated exactly.")?
-        .folded_table(&tables::bode(results.response)?);
+        .folded_table(&tables::bode(of_sensors)?);
     Ok(section)
 }
 

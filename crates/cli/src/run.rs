@@ -54,12 +54,16 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
         Ok(table)
     })?;
     let response = progress.stage("frequency response", |_| {
+        // Without sensors there is nothing to respond.
+        if inputs.case.sensors.is_empty() {
+            return Ok(None);
+        }
         let response = case::response(&inputs, &trimmed, None, None)?;
         write(&out.join("bode.json"), &pretty(&case::bode_json(&response)?)?)?;
         write_table(out, "bode", &case::bode_table(&response)?)?;
         let plot = figures::bode(&model.variant.name, &response)?;
         write(&out.join("bode.svg"), &plot.render()?.markup)?;
-        Ok(response)
+        Ok(Some(response))
     })?;
     let locus = progress.stage("root locus", |_| {
         let speeds = root_locus::speeds_around(model.point.speed, LOCUS.0, LOCUS.1, LOCUS.2);
@@ -78,7 +82,7 @@ pub(crate) fn run(options: &RunOptions) -> Result<(), Failure> {
             modes: &modes,
             trimmed: &trimmed,
             mode_table: &mode_table,
-            response: &response,
+            response: response.as_ref(),
             locus: &locus,
             flights: &histories,
         })?;

@@ -78,8 +78,9 @@ pub fn state_space(system: &StateSpace, about: Option<&OperatingPoint>) -> Resul
 /// or output; the others are headed `state NAME [UNIT]` and `input NAME [UNIT]`.
 ///
 /// # Errors
-/// [`Error::Csv`].
+/// [`Error::Csv`]; [`Error::Lti`] for a system that fails its check.
 pub fn table(system: &StateSpace) -> Result<String> {
+    system.check()?;
     let mut writer = csv::Writer::from_writer(Vec::new());
     let heading = |kind: &'static str| move |s: &Signal| format!("{kind} {} [{}]", s.name, s.unit);
     let header = ["row", "name", "unit"].map(String::from).into_iter();

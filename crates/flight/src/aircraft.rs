@@ -67,7 +67,7 @@ pub struct ElasticPart {
     pub q_x: Mat<f64>,
     /// `Q_u` for the controls, modes x controls.
     pub q_u: Mat<f64>,
-    /// `Q_0`, the load at zero variables, one a mode.
+    /// `Q_0`, the load at zero variables, one per mode.
     pub q_0: Vec<f64>,
     /// Incidence that a control's lift is worth on each strip, `c_l,delta / c_l,alpha`; strips x controls.
     pub control_incidence: Mat<f64>,

@@ -17,13 +17,15 @@ use albatross_numerics::Mat;
 /// for models without lags.
 ///
 /// # Errors
-/// [`Error::Sizes`] for the system of other equations; [`Error::Lti`] for a speed that is not finite.
+/// [`Error::Sizes`] for the system of other equations; [`Error::Lti`] for a speed that is not finite and for a system that
+/// fails its check.
 pub fn diagonal_lag_form(
     system: &StateSpace,
     equations: &EquationsOfMotion,
     speed: f64,
 ) -> Result<StateSpace, Error> {
     let layout = equations.layout();
+    system.check()?;
     ensure_size("states of the linear system", system.a.nrows(), layout.n_states())?;
     let part = match (&equations.aircraft().elastic, equations.options().fidelity) {
         (Some(part), Fidelity::Unsteady) if layout.n_lags > 0 => part,

@@ -42,7 +42,7 @@ pub struct TimeHistory {
     pub time: Vec<f64>,
     /// Inputs, then outputs.
     pub channels: Vec<Channel>,
-    /// One series a channel.
+    /// One series per channel.
     pub series: Vec<Vec<f64>>,
     /// State vector at the end.
     pub final_state: Vec<f64>,

@@ -114,15 +114,6 @@ pub fn mode_table_of(system: &StateSpace, values: &[C64]) -> Result<Vec<Mode>> {
         .collect())
 }
 
-/// Figures of eigenvalues alone, one row per real value or pair, modulus ascending as given.
-pub fn modes_of_eigenvalues(values: &[C64]) -> Vec<Mode> {
-    values
-        .iter()
-        .filter(|value| value.im >= 0.0)
-        .map(|&value| Mode::from_eigenvalue(value))
-        .collect()
-}
-
 fn mode_of(system: &StateSpace, eigen: &EigenBoth, k: usize) -> Mode {
     let shares = participation(eigen.left.as_ref(), eigen.right.as_ref(), k);
     let mut order: Vec<usize> = (0..shares.len()).filter(|&i| shares[i] >= LEAST_SHARE).collect();

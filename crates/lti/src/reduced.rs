@@ -47,7 +47,7 @@ pub(crate) struct LagReduced {
     /// S0 = [Axx, Bx; Cx, D], row after row.
     direct: Vec<f64>,
     groups: Vec<Shared>,
-    /// S_g on the active rows and columns, row after row; a column a group.
+    /// S_g on the active rows and columns, row after row; one column per group.
     coupling: Mat<f64>,
     /// Rows of S that the lags act on.
     rows: Vec<usize>,
@@ -293,7 +293,7 @@ fn weight(group: &Shared, s: C64) -> Result<C64> {
     Ok(sum)
 }
 
-/// Puts rates together whose condensed matrices differ by a factor; a column a group.
+/// Puts rates together whose condensed matrices differ by a factor; one column per group.
 fn shared(condensed: Vec<(f64, Vec<f64>)>, size: usize) -> (Vec<Shared>, Mat<f64>) {
     let peak = |v: &[f64]| {
         let largest =

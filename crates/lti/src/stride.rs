@@ -100,7 +100,7 @@ impl OutputSimulator {
         })
     }
 
-    /// Outputs from rest, one list an output, for one row of input values a sample.
+    /// Outputs from rest, one list per output, for one row of input values per sample.
     ///
     /// # Errors
     /// [`Error::InputWidth`] for a row of the wrong length.

@@ -44,31 +44,6 @@ impl MassMatrix {
         Ok(Self { blocks, couplings })
     }
 
-    /// Lumped matrix from one symmetric 6x6 block for each grid.
-    ///
-    /// # Errors
-    /// [`Error::BadMassMatrix`] for a block that is not finite or not symmetric to 1e-9 of its largest entry.
-    pub fn lumped(blocks: &[[[f64; 6]; 6]]) -> Result<Self, Error> {
-        let mut matrices = Vec::with_capacity(blocks.len());
-        for (i, block) in blocks.iter().enumerate() {
-            let m = Matrix6::from_fn(|r, c| block[r][c]);
-            let bad = |problem: &str| Error::BadMassMatrix {
-                problem: format!("has at grid index {i} {problem}"),
-            };
-            if m.iter().any(|x| !x.is_finite()) {
-                return Err(bad("an entry that is not finite"));
-            }
-            if (m - m.transpose()).amax() > 1e-9 * m.amax() {
-                return Err(bad("a block that is not symmetric"));
-            }
-            matrices.push(m);
-        }
-        Ok(Self {
-            blocks: matrices,
-            couplings: Vec::new(),
-        })
-    }
-
     /// Number of grids.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -108,6 +108,7 @@ pub fn c2d(system: &StateSpace, dt: f64, hold: Intersample) -> Result<Sampled> {
 pub fn d2c(sampled: &Sampled, hold: Intersample, negative: NegativePoles) -> Result<StateSpace> {
     let Sampled { system, dt } = sampled;
     check_step(*dt)?;
+    system.check()?;
     let (log, negative_poles) = match negative {
         NegativePoles::Reject => (logarithm(system.a.as_ref())?, Vec::new()),
         NegativePoles::Double => doubled_logarithm(system.a.as_ref())?,

@@ -5,6 +5,16 @@ use super::{Kind, LONGEST};
 /// Modules of the standard library that reach outside the program.
 const OUTSIDE: [&str; 6] = ["fs", "io", "time", "env", "process", "net"];
 
+/// What changes files: for programs alone.
+const WRITING: [&str; 6] = [
+    "fs::write",
+    "fs::rename",
+    "fs::copy",
+    "fs::create_dir",
+    "File::create",
+    "OpenOptions",
+];
+
 /// Macros that print.
 const PRINTING: [&str; 5] = ["println!", "eprintln!", "print!", "eprint!", "dbg!"];
 
@@ -30,6 +40,20 @@ pub(super) fn check(path: &str, text: &str, kind: Kind) -> Vec<String> {
                 .into_iter()
                 .map(|(line, what)| format!("{path}:{line}: uses {what}")),
         );
+    }
+    if kind != Kind::Tool && !tested {
+        let before_tests = text
+            .lines()
+            .take_while(|line| !line.trim_start().starts_with("#[cfg(test)]"));
+        for (number, line) in before_tests.enumerate() {
+            let code = line.trim_start();
+            let writes = WRITING
+                .iter()
+                .find(|what| code.contains(*what) && !code.starts_with("//"));
+            found.extend(
+                writes.map(|what| format!("{path}:{}: uses {what}; programs write files", number + 1)),
+            );
+        }
     }
     found
 }
@@ -92,6 +116,18 @@ mod tests {
             ["crates/lti/src/a.rs:2: uses std::time"]
         );
         assert!(check("crates/lti/tests/it/a.rs", text, Kind::Physics).is_empty());
+        assert!(check("xtask/src/a.rs", text, Kind::Tool).is_empty());
+    }
+
+    #[test]
+    fn programs_alone_write_files() {
+        let text =
+            "//! x\n// fs::write in prose\nstd::fs::write(a, b)?;\n#[cfg(test)]\nmod t { fs::write(); }\n";
+        assert_eq!(
+            check("crates/avl/src/a.rs", text, Kind::Reader),
+            ["crates/avl/src/a.rs:3: uses fs::write; programs write files"]
+        );
+        assert_eq!(check("crates/albatross/src/a.rs", text, Kind::Facade).len(), 1);
         assert!(check("xtask/src/a.rs", text, Kind::Tool).is_empty());
     }
 

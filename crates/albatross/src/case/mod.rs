@@ -155,7 +155,7 @@ pub enum ModeChoice {
 pub enum Damping {
     /// The same ratio for all.
     Uniform(f64),
-    /// One ratio a mode.
+    /// One ratio per mode.
     PerMode(Vec<f64>),
 }
 

@@ -4,6 +4,7 @@
 
 use albatross::analysis::{mode_table_without_lags, trimmed};
 use albatross::case::Case;
+use albatross::numerics::Mat;
 use albatross::{Error, Inputs, Model};
 
 const CASE: &str = include_str!("../../../cli/template/case.toml");
@@ -21,13 +22,19 @@ fn refused(case: &str) -> String {
     Case::parse(case, "case.toml").unwrap_err().to_string()
 }
 
-/// The trimmed aircraft of three files, or the message.
-fn flown(case: &str, deck: &str, geometry: &str) -> Result<(Model, Vec<f64>), Error> {
+/// A directory with the three files.
+fn written(case: &str, deck: &str, geometry: &str) -> tempfile::TempDir {
     let place = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(place.path().join(name), text).unwrap();
     write("case.toml", case);
     write("aircraft.bdf", deck);
     write("aircraft.avl", geometry);
+    place
+}
+
+/// The trimmed aircraft of three files, or the message.
+fn flown(case: &str, deck: &str, geometry: &str) -> Result<(Model, Vec<f64>), Error> {
+    let place = written(case, deck, geometry);
     let inputs = Inputs::read(&place.path().join("case.toml"))?;
     let model = Model::build(&inputs, &inputs.case.variant(None)?)?;
     let flight = trimmed(&model)?;
@@ -296,7 +303,7 @@ const FAULTS: [Fault; 29] = [
     Fault {
         what: "negative modulus",
         deck: Some(("MAT1,1,7.0E10", "MAT1,1,-7.E10")),
-        message: &["aircraft.bdf:18", "MAT1 1", "E = -70000000000"],
+        message: &["aircraft.bdf:18", "MAT1 1", "E = -7e10"],
         ..SOUND
     },
     Fault {
@@ -527,4 +534,39 @@ fn val_numbers_of_tables_are_refused() {
         let message = longitudinal(&text, "derivatives.json").unwrap_err().to_string();
         assert!(message.starts_with("derivatives.json"), "{message}");
     }
+}
+
+/// Parts of a model that were made apart: a trim that keeps the quaternion, slopes of other strips, fewer shapes.
+#[test]
+fn regress_parts_that_do_not_belong_together() {
+    let directory = written(
+        &with(CASE, "[flight]", "[flight]\nattitude = \"quaternion\""),
+        DECK,
+        GEOMETRY,
+    );
+    let mut inputs = Inputs::read(&directory.path().join("case.toml")).unwrap();
+    let variant = inputs.case.variant(None).unwrap();
+    let mut model = Model::build(&inputs, &variant).unwrap();
+    let trimmed = albatross::analysis::trimmed_for_simulation(&model).unwrap();
+    let message = mode_table_without_lags(&model, &trimmed).unwrap_err().to_string();
+    assert!(
+        message.contains("Quaternion") && message.contains("analysis::trimmed"),
+        "{message}"
+    );
+
+    let whole = albatross::shapes::mode_shapes(&inputs, &model);
+    assert!(whole.render().is_ok());
+    model.strips.shapes.gamma = Mat::zeros(0, 0);
+    assert!(albatross::shapes::mode_shapes(&inputs, &model).render().is_err());
+
+    inputs.slopes_between = Some(Mat::zeros(1, 1));
+    let message = Model::build(&inputs, &variant).unwrap_err().to_string();
+    assert!(
+        message.contains("lift slopes between strips: found 1 x 1"),
+        "{message}"
+    );
+    assert_eq!(
+        albatross::root_locus::speeds_around(100.0, 0.5, 1.5, usize::MAX).len(),
+        10_000
+    );
 }

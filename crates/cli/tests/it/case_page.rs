@@ -189,6 +189,19 @@ fn val_the_small_case_runs() {
     let trim = json(&["trim", &copy.arg("small.toml"), "--json"]);
     assert_eq!(trim["variant"], "base");
     assert_eq!(trim["eta"].as_array().unwrap().len(), 10);
+    // A run without sensors and simulations leaves the response out; asked for by name it is missing.
+    let run = json(&[
+        "run",
+        &copy.arg("small.toml"),
+        "--out",
+        &copy.arg("out"),
+        "--json",
+    ]);
+    assert_eq!(run["variant"], "base");
+    let made = |name: &str| copy.at("out").join(name).exists();
+    assert!(made("report.html") && made("root_locus.json") && !made("bode.json"));
+    assert!(failure(&["bode", &copy.arg("small.toml")]).contains("no [[sensor]] in the case"));
+    assert!(failure(&["simulate", &copy.arg("small.toml")]).contains("no [[manoeuvre]] in the case"));
     let signals = section(&text, "Signals").split("```toml\n").nth(1).unwrap();
     let case = copy.read("case.toml") + "\n" + signals.split("```").next().unwrap();
     copy.write("case.toml", &case);

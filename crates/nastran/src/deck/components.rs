@@ -16,8 +16,6 @@ impl Components {
     pub const ALL: Self = Self(0b11_1111);
     /// The three translations.
     pub const TRANSLATIONS: Self = Self(0b00_0111);
-    /// The three rotations.
-    pub const ROTATIONS: Self = Self(0b11_1000);
 
     /// From the card's digits, in any order: `b"1235"`; blank or `0` is empty. `None` for anything else.
     #[must_use]

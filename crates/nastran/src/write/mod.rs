@@ -7,8 +7,6 @@
 mod cards;
 mod format;
 
-use std::path::Path;
-
 use crate::deck::Deck;
 use crate::error::Error;
 
@@ -33,22 +31,4 @@ pub fn to_text(deck: &Deck) -> Result<String, Error> {
     cards::bulk(deck, &mut out)?;
     out.push_str("ENDDATA\n");
     Ok(out)
-}
-
-/// Writes the deck to a file, which is replaced as a whole: the text goes to a new file beside it, which takes its
-/// name once it is complete.
-///
-/// # Errors
-/// Those of [`to_text`], and [`Error::Io`].
-pub fn to_file(deck: &Deck, path: impl AsRef<Path>) -> Result<(), Error> {
-    let path = path.as_ref();
-    let text = to_text(deck)?;
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let io = |source| Error::Io {
-        path: path.to_owned(),
-        source,
-    };
-    std::fs::write(&partial, text).map_err(io)?;
-    std::fs::rename(&partial, path).map_err(io)
 }

@@ -46,32 +46,3 @@ proptest! {
         prop_assert!((z + value).abs() <= 1e-8 * value.abs(), "{}", text);
     }
 }
-
-#[test]
-fn a_file_is_replaced_as_a_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("deck.bdf");
-    std::fs::write(&path, "old").unwrap();
-    let mut deck = Deck::default();
-    deck.grids.insert(
-        1,
-        Grid {
-            id: 1,
-            position: [f64::INFINITY, 0.0, 0.0],
-            ..Grid::default()
-        },
-    );
-    let error = write::to_file(&deck, &path).unwrap_err().to_string();
-    assert!(error.contains("GRID 1") && error.contains("finite"), "{error}");
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
-    deck.grids.insert(
-        1,
-        Grid {
-            id: 1,
-            ..Grid::default()
-        },
-    );
-    write::to_file(&deck, &path).unwrap();
-    assert_eq!(bdf::read_strict(&path).unwrap().0, deck);
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-}
