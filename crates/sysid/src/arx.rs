@@ -51,9 +51,9 @@ impl PolynomialFit {
 /// Source: L. Ljung, System Identification: Theory for the User, 2nd ed., 1999, sections 4.2 and 10.1.
 ///
 /// # Errors
-/// [`Error::Mismatch`] for an output that is not there, [`Error::Domain`] without coefficients of B,
-/// [`Error::TooFewSamples`], [`Error::Constant`] when the input or the output stands still in every experiment,
-/// [`Error::Numerics`].
+/// Those of [`DataSet::check`]; [`Error::Mismatch`] for an output that is not there, [`Error::Domain`] without
+/// coefficients of B and for more than 500 of A or B, [`Error::TooFewSamples`], [`Error::Constant`] when the input or
+/// the output stands still in every experiment, [`Error::Numerics`].
 pub fn arx(data: &DataSet, output: usize, orders: Orders) -> Result<PolynomialFit> {
     let records = records(data, output, orders)?;
     let triangle = stack(&records, orders, 0);
@@ -62,6 +62,9 @@ pub fn arx(data: &DataSet, output: usize, orders: Orders) -> Result<PolynomialFi
     let regression = regress(triangle.finish().as_ref(), unknowns, rows)?;
     fit(regression, orders, data.dt(), rows)
 }
+
+/// Most coefficients of A and of B: matrices as large as the square of their number are kept.
+const MOST_COEFFICIENTS: usize = 500;
 
 /// Signals of one experiment for the regression.
 pub(crate) struct Record<'a> {
@@ -75,6 +78,7 @@ pub(crate) struct Record<'a> {
 
 /// The records, after the checks that every discrete-time method needs.
 pub(crate) fn records<'a>(data: &'a DataSet, output: usize, orders: Orders) -> Result<Vec<Record<'a>>> {
+    data.check()?;
     let signal = data.outputs.get(output).ok_or_else(|| {
         crate::data::mismatch(
             "position of the output",
@@ -114,13 +118,25 @@ pub(crate) fn records<'a>(data: &'a DataSet, output: usize, orders: Orders) -> R
         })
         .collect();
     check_rows(data, &records, orders, 0)?;
+    for (what, count) in [
+        ("the number of coefficients of A", orders.na),
+        ("the number of coefficients of B", orders.nb),
+    ] {
+        if count > MOST_COEFFICIENTS {
+            return Err(Error::Domain {
+                what,
+                value: count as f64,
+                expected: "at most 500",
+            });
+        }
+    }
     Ok(records)
 }
 
 /// Refuses fewer rows than unknowns and one, after leaving out `skip` samples of every record.
 pub(crate) fn check_rows(data: &DataSet, records: &[Record<'_>], orders: Orders, skip: usize) -> Result<()> {
-    let unknowns = orders.unknowns() + offsets(records);
-    let lost = orders.first() + skip;
+    let unknowns = orders.unknowns().saturating_add(offsets(records));
+    let lost = orders.first().saturating_add(skip);
     let rows: usize = records.iter().map(|r| r.y.len().saturating_sub(lost)).sum();
     if rows > unknowns {
         return Ok(());
@@ -131,7 +147,7 @@ pub(crate) fn check_rows(data: &DataSet, records: &[Record<'_>], orders: Orders,
         unknowns,
         experiments: names(data),
         samples: data.samples(),
-        needed: data.samples() - rows + unknowns + 1,
+        needed: (data.samples() - rows).saturating_add(unknowns).saturating_add(1),
     })
 }
 

@@ -17,8 +17,6 @@
 //!
 //! Equations: THEORY (28a).
 
-use std::cmp::Ordering;
-
 use albatross_numerics::{C64, Mat};
 use serde::{Deserialize, Serialize};
 
@@ -152,7 +150,7 @@ pub(crate) fn from_poles(poles: &[C64]) -> Vec<Block> {
 
 /// Pairs real poles so that near ones share a block: only there can they meet and become a conjugate pair.
 fn real_blocks(mut real: Vec<f64>) -> Vec<Block> {
-    real.sort_by(|p, q| q.partial_cmp(p).unwrap_or(Ordering::Equal));
+    real.sort_by(|p, q| q.total_cmp(p));
     let mut blocks = Vec::new();
     if real.len() % 2 == 1 {
         // The one left over: that without which the others pair best.

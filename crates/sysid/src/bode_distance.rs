@@ -34,11 +34,14 @@ impl Default for Band {
     }
 }
 
+/// Most points of a grid: 80 MB of frequencies.
+const MOST_POINTS: usize = 10_000_000;
+
 impl Band {
     /// Circular frequencies (rad/s) in equal steps of their logarithm.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless `0 < low < high` and there are at least two points.
+    /// [`Error::Domain`] unless `0 < low < high` and there are two to ten million points.
     pub fn grid(&self) -> Result<Vec<f64>> {
         let domain = |what, value, expected| Error::Domain {
             what,
@@ -65,6 +68,13 @@ impl Band {
                 "the number of frequencies",
                 self.points as f64,
                 "at least 2",
+            ));
+        }
+        if self.points > MOST_POINTS {
+            return Err(domain(
+                "the number of frequencies",
+                self.points as f64,
+                "at most 10000000",
             ));
         }
         let last = self.points - 1;

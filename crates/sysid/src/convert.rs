@@ -161,8 +161,17 @@ pub fn d2c(sampled: &Sampled, hold: Intersample, negative: NegativePoles) -> Res
 /// State space of a discrete-time model, in observer form. Delays beyond the order become poles at zero.
 ///
 /// # Errors
-/// [`Error::Lti`] for coefficients that are not finite.
+/// [`Error::Domain`] for a delay of more than 5000 samples, [`Error::Lti`] for coefficients that are not finite.
 pub fn realise(model: &Polynomials) -> Result<Sampled> {
+    // Every sample of the delay is a state, and the state matrix is full.
+    const LONGEST: usize = 5000;
+    if model.nk > LONGEST {
+        return Err(Error::Domain {
+            what: "the delay [samples]",
+            value: model.nk as f64,
+            expected: "at most 5000",
+        });
+    }
     let n = model.orders().first();
     let a = |k: usize| model.a.get(k).copied().unwrap_or(0.0);
     let b = |k: usize| {

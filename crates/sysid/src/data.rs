@@ -93,21 +93,31 @@ impl DataSet {
         experiments: Vec<Experiment>,
         intersample: Intersample,
     ) -> Result<Self> {
-        let Some(first) = experiments.first() else {
-            return Err(mismatch("experiments", "none", "at least one record"));
-        };
-        if outputs.is_empty() {
-            return Err(mismatch("outputs", "none", "at least one output"));
-        }
-        for experiment in &experiments {
-            check(experiment, &input, &outputs, first.dt)?;
-        }
-        Ok(Self {
+        let joined = Self {
             input,
             outputs,
             experiments,
             intersample,
-        })
+        };
+        joined.check()?;
+        Ok(joined)
+    }
+
+    /// Whether the experiments still belong together: the fields are open to change, so whatever uses the data asks.
+    ///
+    /// # Errors
+    /// As [`DataSet::try_new`].
+    pub fn check(&self) -> Result<()> {
+        let Some(first) = self.experiments.first() else {
+            return Err(mismatch("experiments", "none", "at least one record"));
+        };
+        if self.outputs.is_empty() {
+            return Err(mismatch("outputs", "none", "at least one output"));
+        }
+        for experiment in &self.experiments {
+            check(experiment, &self.input, &self.outputs, first.dt)?;
+        }
+        Ok(())
     }
 
     /// Sample time \[s\].

@@ -21,12 +21,12 @@ pub struct Orders {
 impl Orders {
     /// Coefficients to estimate.
     pub fn unknowns(self) -> usize {
-        self.na + self.nb
+        self.na.saturating_add(self.nb)
     }
 
     /// First sample whose regressors all lie in the record.
     pub(crate) fn first(self) -> usize {
-        self.na.max((self.nk + self.nb).saturating_sub(1))
+        self.na.max(self.nk.saturating_add(self.nb).saturating_sub(1))
     }
 }
 
@@ -106,7 +106,7 @@ impl Polynomials {
         let mut output: Vec<f64> = Vec::with_capacity(input.len());
         for k in 0..input.len() {
             let forced: f64 = (self.b.iter().enumerate())
-                .filter_map(|(j, b)| Some(b * input.get(k.checked_sub(self.nk + j)?)?))
+                .filter_map(|(j, b)| Some(b * input.get(k.checked_sub(self.nk)?.checked_sub(j)?)?))
                 .sum();
             let free: f64 = (self.a.iter().enumerate().skip(1))
                 .filter_map(|(j, a)| Some(a * output.get(k.checked_sub(j)?)?))

@@ -167,8 +167,8 @@ pub struct Estimate {
 /// Estimates a model with common poles from all experiments and outputs together.
 ///
 /// # Errors
-/// [`Error::Order`], [`Error::TooFewSamples`], [`Error::Constant`], [`Error::Domain`] for unusable settings or data;
-/// [`Error::NoModel`] when no start leads anywhere.
+/// [`Error::Order`], [`Error::TooFewSamples`], [`Error::Constant`], [`Error::Domain`] for unusable settings or data,
+/// those of [`DataSet::check`]; [`Error::NoModel`] when no start leads anywhere.
 pub fn estimate(data: &DataSet, options: &Options) -> Result<Estimate> {
     check(data, options)?;
     let factors = factors(data, options)?;
@@ -414,6 +414,7 @@ fn block(data: &DataSet, options: &Options) -> usize {
 
 /// Refuses what cannot be estimated.
 fn check(data: &DataSet, options: &Options) -> Result<()> {
+    data.check()?;
     let (poles, zeros) = (options.poles, options.zeros);
     if poles == 0 || zeros > poles {
         return Err(Error::Order {
@@ -460,13 +461,18 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
     let n_outputs = data.outputs.len();
     let offsets = data.experiments.iter().filter(|e| e.estimate_offset).count();
     let initial = match options.initial {
-        InitialCondition::Estimate => poles * data.experiments.len() * n_outputs,
+        InitialCondition::Estimate => poles.saturating_mul(data.experiments.len() * n_outputs),
         InitialCondition::Zero | InitialCondition::Auto => 0,
     };
-    let unknowns = poles + (zeros + 1) * n_outputs + initial + offsets * n_outputs;
+    let unknowns = zeros
+        .saturating_add(1)
+        .saturating_mul(n_outputs)
+        .saturating_add(poles)
+        .saturating_add(initial)
+        .saturating_add(offsets * n_outputs);
     let samples = data.samples();
     // Twice as many equations as unknowns is the least that can tell a fit from an interpolation.
-    let needed = 2 * unknowns.div_ceil(n_outputs);
+    let needed = unknowns.div_ceil(n_outputs).saturating_mul(2);
     if samples < needed {
         return Err(Error::TooFewSamples {
             poles,
@@ -477,9 +483,18 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
             needed,
         });
     }
+    if poles > MOST_POLES {
+        return Err(Error::Order {
+            poles,
+            zeros,
+            expected: "at most 500 poles can be estimated",
+        });
+    }
     Ok(())
 }
 
+/// Most poles of an estimation: matrices as large as the square of their number are kept. In messages as well.
+pub(crate) const MOST_POLES: usize = 500;
 /// Sizes of signals whose squares and products are numbers of double precision.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 /// Most starts: each is a relocation of poles, and all are kept for the report.

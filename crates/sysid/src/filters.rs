@@ -81,7 +81,9 @@ impl Timing {
     }
 
     fn before(&self, input: &[f64], k: usize) -> f64 {
-        k.checked_sub(self.whole + 1)
+        // A delay of any length: whole + 1 need not be a number.
+        k.checked_sub(self.whole)
+            .and_then(|i| i.checked_sub(1))
             .and_then(|i| input.get(i))
             .copied()
             .unwrap_or(0.0)

@@ -7,6 +7,7 @@ use albatross_numerics::{C64, Mat};
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{self, Block, state_matrices};
+use crate::data::mismatch;
 use crate::filters::{Bank, Timing};
 use crate::numerator::{combine, zeros_of};
 use crate::{Error, Experiment, Intersample, Result};
@@ -54,7 +55,45 @@ impl Model {
         self.blocks.iter().all(|b| b.is_stable())
     }
 
+    /// Holds the lists against the order: the fields are open to change, and come from files.
+    fn check(&self) -> Result<()> {
+        let (order, outputs) = (self.order(), self.outputs.len());
+        for (what, found) in [
+            ("lists of coefficients of the model", self.coefficients.len()),
+            ("direct paths of the model", self.direct.len()),
+        ] {
+            if found != outputs {
+                return Err(mismatch(what, found, format!("{outputs}, one an output")));
+            }
+        }
+        for (c, output) in self.coefficients.iter().zip(&self.outputs) {
+            if c.len() != order {
+                return Err(mismatch(
+                    format!("coefficients of {}", output.name),
+                    c.len(),
+                    format!("{order}, one a pole"),
+                ));
+            }
+        }
+        if self.zeros > order {
+            return Err(Error::Order {
+                poles: order,
+                zeros: self.zeros,
+                expected: "no more zeros than poles are possible",
+            });
+        }
+        if !(self.delay.is_finite() && self.delay >= 0.0) {
+            return Err(Error::Domain {
+                what: "the transport delay [s]",
+                value: self.delay,
+                expected: "zero or a positive number",
+            });
+        }
+        Ok(())
+    }
+
     fn output(&self, output: usize) -> Result<(&[f64], f64)> {
+        self.check()?;
         match (self.coefficients.get(output), self.direct.get(output)) {
             (Some(c), Some(d)) => Ok((c, *d)),
             _ => Err(Error::Mismatch {
@@ -68,9 +107,15 @@ impl Model {
     /// G(s) of an output, delay included.
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for an output that is not there.
+    /// [`Error::Mismatch`] for an output that is not there or lists of other lengths than the order asks for,
+    /// [`Error::Order`] for more zeros than poles, [`Error::Domain`] for a negative delay.
     pub fn evaluate(&self, output: usize, s: C64) -> Result<C64> {
         let (c, d) = self.output(output)?;
+        Ok(self.value(c, d, s))
+    }
+
+    /// G(s) with these coefficients, as many as poles.
+    fn value(&self, c: &[f64], d: f64, s: C64) -> C64 {
         let mut value = C64::new(d, 0.0);
         let mut at = 0;
         for block in &self.blocks {
@@ -80,24 +125,25 @@ impl Model {
             }
             at += block.order();
         }
-        Ok(value * (-s * self.delay).exp())
+        value * (-s * self.delay).exp()
     }
 
     /// Frequency response of an output at angular frequencies \[rad/s\].
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for an output that is not there.
+    /// As [`Model::evaluate`].
     pub fn frequency_response(&self, output: usize, omega_rad_s: &[f64]) -> Result<Vec<C64>> {
-        omega_rad_s
+        let (c, d) = self.output(output)?;
+        Ok(omega_rad_s
             .iter()
-            .map(|w| self.evaluate(output, C64::new(0.0, *w)))
-            .collect()
+            .map(|w| self.value(c, d, C64::new(0.0, *w)))
+            .collect())
     }
 
     /// Zeros, poles and gain of an output, without the delay.
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for an output that is not there, [`Error::Lti`], [`Error::Numerics`].
+    /// As [`Model::evaluate`]; [`Error::Lti`], [`Error::Numerics`].
     pub fn zpk(&self, output: usize) -> Result<Zpk> {
         let (c, d) = self.output(output)?;
         let zeros = zeros_of(&self.blocks, c, d, self.zeros)?;
@@ -110,7 +156,7 @@ impl Model {
             .map(|v| v.norm())
             .fold(1e-3, f64::max);
         let s = C64::new(2.0 * reach, 0.0);
-        let value = self.evaluate(output, s)? * (s * self.delay).exp();
+        let value = self.value(c, d, s) * (s * self.delay).exp();
         let gain = (value / unit.evaluate(s)).re;
         Ok(Zpk::try_new(unit.zeros, unit.poles, gain)?)
     }
@@ -126,8 +172,9 @@ impl Model {
     /// Block-diagonal state space, without the delay.
     ///
     /// # Errors
-    /// [`Error::Lti`] for names that repeat.
+    /// [`Error::Lti`] for names that repeat; as [`Model::evaluate`] for lists that do not fit.
     pub fn state_space(&self) -> Result<StateSpace> {
+        self.check()?;
         let (a, b) = state_matrices(&self.blocks);
         let n = b.len();
         let ny = self.outputs.len();
@@ -148,8 +195,9 @@ impl Model {
     /// Outputs from rest for a sampled input, one list an output; exact for the behaviour between samples.
     ///
     /// # Errors
-    /// [`Error::Lti`] when a pole overflows within one sample time.
+    /// [`Error::Lti`] when a pole overflows within one sample time; as [`Model::evaluate`] for lists that do not fit.
     pub fn simulate(&self, input: &[f64], dt: f64, intersample: Intersample) -> Result<Vec<Vec<f64>>> {
+        self.check()?;
         let timing = Timing::new(dt, intersample, self.delay);
         let states = Bank::new(&self.blocks, timing)?.respond(input, false, 1).x;
         let delayed = timing.delayed(input);

@@ -93,7 +93,7 @@ pub(crate) fn reallocate(
         method: SearchMethod::Auto,
         ..search
     };
-    let mut searches = SEARCHES_A_MOVE * most;
+    let mut searches = SEARCHES_A_MOVE.saturating_mul(most);
     for _ in 0..most {
         let Some(better) = one_move(problem, &best, search, scan, &mut searches)? else {
             break;

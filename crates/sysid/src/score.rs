@@ -45,8 +45,9 @@ pub struct Simulated {
 ///
 /// # Errors
 /// [`crate::Error::Lti`] when a pole overflows within one sample time, [`crate::Error::Mismatch`] when the model has
-/// another number of outputs.
+/// another number of outputs; those of [`DataSet::check`] and [`Model::simulate`].
 pub fn simulate_records(model: &Model, data: &DataSet, estimate_initial: bool) -> Result<Vec<Simulated>> {
+    data.check()?;
     if model.outputs.len() != data.outputs.len() {
         return Err(crate::data::mismatch(
             "outputs of the data",

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::criteria::criteria;
+use crate::estimate::MOST_POLES;
 use crate::{DataSet, Error, Estimate, Model, Options, Result, estimate, simulate_records};
 
 /// Which records a candidate is trained on.
@@ -104,12 +105,14 @@ pub struct OrderSearch {
 /// Tries all orders, side by side; `progress` is told how many of how many candidates are done.
 ///
 /// # Errors
-/// [`Error::Order`] for an empty range; [`Error::NoModel`] when no candidate trained on all records succeeds.
+/// Those of [`DataSet::check`]; [`Error::Order`] for an empty range and for one beyond the number of samples or 500
+/// poles; [`Error::NoModel`] when no candidate trained on all records succeeds.
 pub fn search(
     data: &DataSet,
     options: &SearchOptions,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<OrderSearch> {
+    data.check()?;
     let wanted = candidates(data, options)?;
     let total = wanted.len();
     let done = std::sync::atomic::AtomicUsize::new(0);
@@ -132,6 +135,14 @@ pub fn search(
 
 fn candidates(data: &DataSet, options: &SearchOptions) -> Result<Vec<(usize, usize, Training)>> {
     let [least, greatest] = options.poles;
+    // All candidates are listed before any of them is tried.
+    if greatest > data.samples().min(MOST_POLES) {
+        return Err(Error::Order {
+            poles: greatest,
+            zeros: 0,
+            expected: "the range of poles may reach to the number of samples, and to 500 at most",
+        });
+    }
     let count = data.experiments.len();
     let mut trainings = Vec::new();
     if options.single && count > 1 {

@@ -22,6 +22,9 @@ const NEGLIGIBLE: f64 = 1e-10;
 /// Columns of the stacked Hankel matrices that the automatic horizon keeps to.
 const WIDEST: usize = 400;
 
+/// Most columns of the past: matrices as large as the square of their number are kept. In messages as well.
+const MOST_COLUMNS: usize = 4000;
+
 /// Least magnitude of a discrete pole that is taken at its word, exp(-pi): a real pole at the Nyquist frequency.
 const SHORTEST: f64 = 0.043_213_918_263_772_25;
 
@@ -69,12 +72,21 @@ pub struct SubspacePoles {
 /// Offsets of experiments that ask for them are projected out like a further input.
 ///
 /// # Errors
-/// [`Error::Order`] without poles or with as many as the horizon or more, [`Error::ShortRecord`],
-/// [`Error::Constant`] when the input or every output stands still, [`Error::NoModel`] when the data span fewer
-/// directions than poles are asked for, [`Error::Domain`] for a factor or a horizon of
-/// zero, [`Error::Numerics`].
+/// Those of [`DataSet::check`]; [`Error::Order`] without poles or with as many as the horizon or more,
+/// [`Error::ShortRecord`], [`Error::Constant`] when the input or every output stands still, [`Error::NoModel`] when the
+/// data span fewer directions than poles are asked for, [`Error::Domain`] for a factor or a horizon of zero and for a
+/// horizon beyond 2000 (in proportion less for several outputs), [`Error::Numerics`].
 pub fn poles(data: &DataSet, np: usize, options: &SubspaceOptions) -> Result<SubspacePoles> {
+    data.check()?;
     check_moving(data)?;
+    let order = || Error::Order {
+        poles: np,
+        zeros: 0,
+        expected: "a subspace method gives at least one pole, and fewer than its horizon",
+    };
+    if np == 0 || np > data.samples() {
+        return Err(order());
+    }
     let positive = |what, value: Option<usize>| match value {
         Some(0) => Err(Error::Domain {
             what,
@@ -88,14 +100,17 @@ pub fn poles(data: &DataSet, np: usize, options: &SubspaceOptions) -> Result<Sub
     let thinned = thin(data, decimation)?;
     let horizon = positive("the horizon", options.horizon)?.unwrap_or_else(|| horizon(&thinned, np));
     let layout = Layout::new(&thinned, horizon);
-    if np == 0 || np + layout.outputs > layout.future() {
-        return Err(Error::Order {
-            poles: np,
-            zeros: 0,
-            expected: "a subspace method gives at least one pole, and fewer than its horizon",
-        });
+    if np + layout.outputs > layout.future() {
+        return Err(order());
     }
     check_length(&thinned, np, decimation, &layout)?;
+    if layout.past() > MOST_COLUMNS {
+        return Err(Error::Domain {
+            what: "the horizon",
+            value: horizon as f64,
+            expected: "at most 2000 for one output, and less for several: horizon x (1 + outputs) at most 4000",
+        });
+    }
 
     let r = stack(&thinned, &layout);
     let (observability, singular_values) = observability(r.as_ref(), &layout, options.weighting)?;
@@ -149,7 +164,7 @@ impl Layout {
     }
 
     fn future(&self) -> usize {
-        self.horizon * self.outputs
+        self.horizon.saturating_mul(self.outputs)
     }
 
     fn width(&self) -> usize {
@@ -196,7 +211,7 @@ fn check_length(data: &DataSet, np: usize, decimation: usize, layout: &Layout) -
         horizon: layout.horizon,
         needed,
     };
-    let window = 2 * layout.horizon;
+    let window = layout.horizon.saturating_mul(2);
     if let Some(short) = data.experiments.iter().find(|e| e.len() < window) {
         return Err(error(short.name.clone(), short.len(), window));
     }

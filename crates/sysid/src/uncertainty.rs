@@ -17,6 +17,7 @@ use albatross_numerics::{C64, Mat};
 use serde::Serialize;
 
 use crate::blocks::Block;
+use crate::data::mismatch;
 use crate::filters::Bank;
 use crate::numerator::tangents;
 use crate::problem::{Columns, Fitted, Problem};
@@ -352,7 +353,8 @@ impl Uncertainty {
     /// Response of an output with standard deviations; `coloured` takes the residuals as coloured as they are.
     ///
     /// # Errors
-    /// [`crate::Error::Mismatch`] for an output that is not there.
+    /// [`crate::Error::Mismatch`] for an output that is not there, and for a model with other numbers of outputs or
+    /// poles than the one estimated; those of [`Model::evaluate`].
     pub fn band(
         &self,
         model: &Model,
@@ -361,8 +363,24 @@ impl Uncertainty {
         coloured: bool,
     ) -> Result<ConfidenceBand> {
         let response = model.frequency_response(output, omega_rad_s)?;
-        let c = &model.coefficients[output];
-        let map = &self.numerators[output];
+        let (Some(c), Some(map)) = (model.coefficients.get(output), self.numerators.get(output)) else {
+            return Err(mismatch(
+                "position of an output",
+                output,
+                format!(
+                    "less than {}, the outputs that were estimated",
+                    self.numerators.len()
+                ),
+            ));
+        };
+        for (what, found, expected) in [
+            ("outputs of the model", model.outputs.len(), self.numerators.len()),
+            ("poles of the model", c.len(), map.own.nrows()),
+        ] {
+            if found != expected {
+                return Err(mismatch(what, found, format!("{expected}, as were estimated")));
+            }
+        }
         let covariance = &self.covariance[usize::from(coloured)];
         let (mut sd_magnitude_db, mut sd_phase_deg) = (Vec::new(), Vec::new());
         for (omega, value) in omega_rad_s.iter().zip(&response) {

@@ -45,7 +45,10 @@ fn bracketed_words(line: &str) -> Vec<String> {
     for piece in line.split_ascii_whitespace() {
         let unit = piece.starts_with(['[', '(']) && !words.is_empty();
         match words.last_mut().filter(|_| depth > 0 || quoted || unit) {
-            Some(word) => *word = format!("{word} {piece}"),
+            Some(word) => {
+                word.push(' ');
+                word.push_str(piece);
+            }
             None => words.push(piece.to_owned()),
         }
         for c in piece.chars() {
@@ -158,7 +161,7 @@ fn written_unit(suffix: &str) -> String {
     suffix
         .split('_')
         .enumerate()
-        .fold(String::new(), |text, (i, piece)| {
+        .fold(String::new(), |mut text, (i, piece)| {
             let piece = match piece {
                 "pct" | "percent" => "%".to_owned(),
                 "mps" => "m/s".to_owned(),
@@ -170,11 +173,12 @@ fn written_unit(suffix: &str) -> String {
                     _ => piece.to_owned(),
                 },
             };
-            match (i, piece.starts_with("s^") || piece == "s") {
-                (0, _) => piece,
-                (_, true) => format!("{text}/{piece}"),
-                (_, false) => format!("{text} {piece}"),
+            if i > 0 {
+                let divides = piece.starts_with("s^") || piece == "s";
+                text.push(if divides { '/' } else { ' ' });
             }
+            text.push_str(&piece);
+            text
         })
 }
 

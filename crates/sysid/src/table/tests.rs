@@ -321,6 +321,16 @@ fn regress_faults_name_their_place() {
     }
 }
 
+/// Time goes with the length of a line, not with its square: as that, this would take many minutes.
+#[test]
+fn regress_a_long_line_is_read_at_once() {
+    let list = "[ ".to_owned() + &"0.5 ".repeat(1_250_000) + "]";
+    assert!(parse(&list, "x.json").is_err());
+    let units = "u".to_owned() + &"_s".repeat(500_000) + ",y\n1,2\n3,4\n";
+    let table = parse(&units, "x.csv").unwrap();
+    assert_eq!(table.columns[0].unit.as_deref().map(str::len), Some(999_999));
+}
+
 proptest! {
     #[test]
     fn prop_no_text_panics(text in "\\PC*", asked in "\\PC{0,6}") {

@@ -148,7 +148,7 @@ fn resolution(column: &Column, largest: f64) -> f64 {
     } else {
         0.0
     };
-    let printed = 10_f64.powi(-column.printed.decimals);
+    let printed = 10_f64.powi(column.printed.decimals.saturating_neg());
     let digits = 10_f64.powf(magnitude + 1.0 - f64::from(column.printed.significant));
     let single = f64::from(f32::EPSILON) * largest;
     printed.max(digits).max(single)

@@ -11,4 +11,5 @@ mod kinds;
 mod order20;
 mod rao_garnier;
 mod real_data;
+mod refusals;
 mod systems;
