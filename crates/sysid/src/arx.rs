@@ -95,7 +95,7 @@ pub(crate) fn records<'a>(data: &'a DataSet, output: usize, orders: Orders) -> R
     }
     let output_of = |e: &'a Experiment| e.outputs.get(output).map_or(&[][..], Vec::as_slice);
     let still = |name: &str| Error::Constant {
-        experiment: names(data),
+        experiment: data.names(),
         signal: name.to_owned(),
         samples: data.samples(),
     };
@@ -145,15 +145,10 @@ pub(crate) fn check_rows(data: &DataSet, records: &[Record<'_>], orders: Orders,
         poles: orders.na,
         zeros: orders.nb.saturating_sub(1),
         unknowns,
-        experiments: names(data),
+        experiments: data.names(),
         samples: data.samples(),
         needed: (data.samples() - rows).saturating_add(unknowns).saturating_add(1),
     })
-}
-
-fn names(data: &DataSet) -> String {
-    let names: Vec<&str> = data.experiments.iter().map(|e| e.name.as_str()).collect();
-    names.join(", ")
 }
 
 fn constant(values: &[f64]) -> bool {

@@ -120,6 +120,20 @@ impl DataSet {
         Ok(())
     }
 
+    /// Names of the experiments, for messages.
+    pub(crate) fn names(&self) -> String {
+        let names: Vec<&str> = self.experiments.iter().map(|e| e.name.as_str()).collect();
+        names.join(", ")
+    }
+
+    /// Duration of the longest experiment, s.
+    pub(crate) fn longest(&self) -> f64 {
+        self.experiments
+            .iter()
+            .map(Experiment::duration)
+            .fold(0.0, f64::max)
+    }
+
     /// Sample time \[s\].
     pub fn dt(&self) -> f64 {
         self.experiments.first().map_or(0.0, |e| e.dt)

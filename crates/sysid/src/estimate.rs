@@ -478,7 +478,7 @@ fn check(data: &DataSet, options: &Options) -> Result<()> {
             poles,
             zeros,
             unknowns,
-            experiments: names(data),
+            experiments: data.names(),
             samples,
             needed,
         });
@@ -502,7 +502,7 @@ const MOST_STARTS: usize = 10_000;
 
 /// Refuses settings that are out of range.
 fn check_numbers(options: &Options, delay: f64, data: &DataSet) -> Result<()> {
-    let longest = data.experiments.iter().map(|e| e.duration()).fold(0.0, f64::max);
+    let longest = data.longest();
     let domain = |what, value, expected| {
         Err(Error::Domain {
             what,
@@ -547,11 +547,6 @@ fn check_numbers(options: &Options, delay: f64, data: &DataSet) -> Result<()> {
         }
         _ => Ok(()),
     }
-}
-
-fn names(data: &DataSet) -> String {
-    let names: Vec<&str> = data.experiments.iter().map(|e| e.name.as_str()).collect();
-    names.join(", ")
 }
 
 /// Roots of the weights, by output and experiment.
@@ -638,7 +633,7 @@ fn finish(problem: &Problem<'_>, options: &Options, won: Won) -> Result<Estimate
     })
 }
 
-/// Share of the fitted modes that may be doubtful before the order as a whole is called too large.
+/// What the user should know of the result.
 fn warnings(
     problem: &Problem<'_>,
     options: &Options,
@@ -675,12 +670,7 @@ fn warnings(
         }
     }
     let blocks: &[Block] = &model.blocks;
-    let longest = problem
-        .data
-        .experiments
-        .iter()
-        .map(|e| e.duration())
-        .fold(0.0, f64::max);
+    let longest = problem.data.longest();
     let slow = blocks
         .iter()
         .flat_map(|b| b.poles())

@@ -18,7 +18,7 @@
 //! | step | module | in, out |
 //! |---|---|---|
 //! | read | [`table`] | text of a table; a record with names and units |
-//! | prepare | [`trim`], [`hold`], [`resample`], [`advice`] | a record; deviations from trim, behaviour between samples, what the data can show |
+//! | prepare | [`trim`], [`hold`], [`mod@decimate`], [`advice`] | a record; deviations from trim, behaviour between samples, what the data can show |
 //! | estimate | [`mod@estimate`], [`refine`] | a [`DataSet`] and [`Options`]; an [`Estimate`] |
 //! | judge | [`score`], [`uncertainty`], [`residuals`], [`mod@criteria`] | fits, standard deviations, whiteness, information criteria |
 //! | choose the order | [`mod@search`] | a range of orders; scores on records not seen |
@@ -82,7 +82,7 @@ pub mod bode_distance;
 pub mod convert;
 pub mod criteria;
 pub mod data;
-mod decimate;
+pub mod decimate;
 pub mod discrete;
 mod elimination;
 mod error;
@@ -102,7 +102,6 @@ mod problem;
 mod reallocate;
 pub mod refine;
 mod relocate;
-pub mod resample;
 pub mod residuals;
 pub mod response_peaks;
 pub mod score;
@@ -113,6 +112,7 @@ mod stillness;
 pub mod subspace;
 #[warn(clippy::indexing_slicing, clippy::string_slice)]
 pub mod table;
+mod thinning;
 mod triangle;
 pub mod trim;
 pub mod uncertainty;
@@ -122,6 +122,7 @@ pub use blocks::Block;
 pub use bode_distance::{Band, BodeDistance, bode_distance, energy_spectrum, state_space_distance};
 pub use criteria::{Criteria, criteria};
 pub use data::{DataSet, Experiment, Intersample};
+pub use decimate::decimate;
 pub use error::{Error, Result};
 pub use estimate::{Delay, Estimate, InitialCondition, Initialisation, Options, Weights, estimate};
 pub use fit::{from_trim, nrmse_fit};
@@ -130,7 +131,6 @@ pub use matching::{MatchOptions, PoleMatching, match_poles};
 pub use model::Model;
 pub use peaks::{Peak, peaks};
 pub use refine::{Iteration, SearchMethod, Stop};
-pub use resample::decimate;
 pub use residuals::{ResidualCheck, ResidualOptions, check_residual, check_residuals};
 pub use response_peaks::{ResponsePeak, ResponsePeakMatching, match_response_peaks, response_peaks};
 pub use score::{InitialState, Simulated, simulate_records};

@@ -53,7 +53,7 @@ pub(crate) struct Scan {
 impl Scan {
     pub(crate) fn new(problem: &Problem<'_>) -> Result<Self> {
         let data = problem.data;
-        let longest = data.experiments.iter().map(|e| e.duration()).fold(0.0, f64::max);
+        let longest = data.longest();
         let nyquist = PI / data.dt();
         let low = (2.0 * PI / longest).min(0.1 * nyquist);
         let high = (3.0 * bandwidth(data)).clamp(4.0 * low, 0.9 * nyquist);

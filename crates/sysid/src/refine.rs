@@ -384,13 +384,7 @@ fn try_step(problem: &Problem<'_>, from: &Fitted, step: &[f64], search: Search) 
 /// Where stability is asked for, no coefficient goes below a tenth of its value in one step: it can approach the
 /// boundary but not cross it.
 fn moved(problem: &Problem<'_>, from: &Point, step: &[f64], search: Search) -> Point {
-    let slowest = SLOWEST
-        / problem
-            .data
-            .experiments
-            .iter()
-            .map(|e| e.duration())
-            .fold(0.0, f64::max);
+    let slowest = SLOWEST / problem.data.longest();
     let fastest = FASTEST / problem.data.dt();
     let keep = |old: f64, change: f64, [floor, ceiling]: [f64; 2]| {
         let limit = ceiling.max(old.abs());

@@ -127,7 +127,7 @@ fn delays(data: &DataSet, options: &Options) -> Vec<f64> {
 }
 
 fn spread(data: &DataSet, options: &Options, delay: f64) -> Vec<Start> {
-    let longest = data.experiments.iter().map(|e| e.duration()).fold(0.0, f64::max);
+    let longest = data.longest();
     let nyquist = PI / data.dt();
     let low = (2.0 * PI / longest).min(0.1 * nyquist);
     let bandwidth = bandwidth(data).max(3.0 * low);

@@ -12,7 +12,7 @@
 use albatross_numerics::faer::linalg::solvers::Svd;
 use albatross_numerics::{C64, Mat, MatRef, eigen, solve};
 
-use crate::decimate::{automatic_factor, thin};
+use crate::thinning::{automatic_factor, thin};
 use crate::triangle::Triangle;
 use crate::{DataSet, Error, Experiment, Result};
 
@@ -174,9 +174,8 @@ impl Layout {
 
 fn check_moving(data: &DataSet) -> Result<()> {
     let still = |values: &[f64]| values.iter().all(|v| Some(v) == values.first());
-    let names: Vec<&str> = data.experiments.iter().map(|e| e.name.as_str()).collect();
     let constant = |signal: &str| Error::Constant {
-        experiment: names.join(", "),
+        experiment: data.names(),
         signal: signal.to_owned(),
         samples: data.samples(),
     };
@@ -219,9 +218,8 @@ fn check_length(data: &DataSet, np: usize, decimation: usize, layout: &Layout) -
     let windows: usize = data.experiments.iter().map(|e| e.len() + 1 - window).sum();
     let needed = window + layout.constants + 2 * np;
     if windows < needed {
-        let names: Vec<&str> = data.experiments.iter().map(|e| e.name.as_str()).collect();
         let samples = data.samples();
-        return Err(error(names.join(", "), samples, samples - windows + needed));
+        return Err(error(data.names(), samples, samples - windows + needed));
     }
     Ok(())
 }
