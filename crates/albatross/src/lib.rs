@@ -10,7 +10,19 @@
 //! the coupled aircraft ([`flight`]). [`analysis`] trims, linearises, lists modes, and simulates it. The stages are
 //! crates of their own, re-exported here under their short names.
 //!
-//! [`neutral`] takes models from other tools instead of files of Nastran and AVL.
+//! # Inputs and outputs
+//! | module | in | out |
+//! |---|---|---|
+//! | [`case`](mod@case) | a case file | [`Case`]: every key, checked |
+//! | [`inputs`] | a case and the files that it names, or the solvers in their place ([`modes`], [`lattice`]) | [`Inputs`] |
+//! | [`check`](mod@check) | a case file | what is missing, unusual or inconsistent, with place and cure |
+//! | [`model`] | [`Inputs`] and a variant, through [`strips`] and [`controls`] | [`Model`] |
+//! | [`analysis`] | a [`Model`] | trim, linear system, modes in the flow, frequency response, time histories |
+//! | [`root_locus`] | a [`Model`] and speeds | eigenvalues over speed and the modes as branches |
+//! | [`shapes`] | a [`Model`] | mode shapes of grids and strips, to draw |
+//! | [`neutral`] | a wing or an aircraft as JSON from any other tool | its matrices, flutter, trims, responses |
+//! | [`linear`] | a linear system or identified model as JSON | the same, checked |
+//! | [`tables`], [`sources`] | lift slopes (CSV), derivatives (JSON); a case | their structs; the files that it reads |
 //!
 //! # Limits
 //! Those of the stages: strip theory with incompressible lags, linear coefficients, small deformation. The case file

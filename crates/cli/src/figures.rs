@@ -233,24 +233,22 @@ fn branches(locus: &RootLocus, window: &Window, flight_speed: f64, named: Branch
         }
     }
     let markers = |at: usize, name: String, marker: Marker, labelled: bool| {
-        let (mut re, mut im, mut labels) = (Vec::new(), Vec::new(), Vec::new());
+        let mut points: Vec<((f64, f64), &str)> = Vec::new();
         for branch in &locus.branches {
-            if let Some(value) = branch
-                .values
-                .get(at)
-                .copied()
-                .flatten()
-                .filter(|v| window.holds(*v))
-            {
-                re.push(value.0);
-                im.push(value.1);
+            let value = branch.values.get(at).copied().flatten();
+            if let Some(value) = value.filter(|v| window.holds(*v)) {
                 let own = branch.kind == named;
-                labels.push(if own { branch.name.clone() } else { String::new() });
+                points.push((value, if own { &branch.name } else { "" }));
             }
         }
+        let apart = (
+            ONE_LABEL * (window.re.1 - window.re.0),
+            0.7 * ONE_LABEL * window.im,
+        );
+        let (re, im): (Vec<f64>, Vec<f64>) = points.iter().map(|(value, _)| *value).unzip();
         let series = Series::new(name, dots(Colour::BLACK, marker), re, im);
         if labelled {
-            series.with_labels(labels)
+            series.with_labels(shared_labels(&points, apart))
         } else {
             series
         }
@@ -269,18 +267,36 @@ fn branches(locus: &RootLocus, window: &Window, flight_speed: f64, named: Branch
 /// Damping ratio beyond which a mode is left out of the diagram of damping: the others would be pressed together.
 const MOST_DAMPING: f64 = 0.25;
 
-/// Part of the range within which damping ratios share one label: one beside the other could not be read.
+/// Part of the range within which points share one label: one beside the other could not be read.
 const ONE_LABEL: f64 = 0.035;
+
+/// Labels of points in the plane: of those nearer than `apart` in both directions the first bears the names of all.
+fn shared_labels(points: &[((f64, f64), &str)], apart: (f64, f64)) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::with_capacity(points.len());
+    for ((x, y), name) in points {
+        let near = |(label, ((u, v), _)): (&String, &((f64, f64), &str))| {
+            !label.is_empty() && (x - u).abs() < apart.0 && (y - v).abs() < apart.1
+        };
+        let first = labels.iter().zip(points).position(near);
+        match first.and_then(|at| labels.get_mut(at)) {
+            Some(label) if !name.is_empty() => {
+                label.push_str(", ");
+                label.push_str(name);
+                labels.push(String::new());
+            }
+            _ => labels.push((*name).to_owned()),
+        }
+    }
+    labels
+}
 
 /// Frequency and damping of the modes over speed.
 pub(crate) fn frequency_and_damping(locus: &RootLocus, modes: &ModeTable, flight_speed: f64) -> LinePlot {
     let window = Window::around(modes);
     let of_frequency = |(re, im): (f64, f64)| re.hypot(im);
     let of_damping = |(re, im): (f64, f64)| -re / re.hypot(im);
-    let frequency = over_speed(locus, flight_speed, 0.0, |v| {
-        window.holds(v).then(|| of_frequency(v))
-    });
-    let damping = over_speed(locus, flight_speed, ONE_LABEL, |v| {
+    let frequency = over_speed(locus, flight_speed, |v| window.holds(v).then(|| of_frequency(v)));
+    let damping = over_speed(locus, flight_speed, |v| {
         (window.holds(v) && of_damping(v) < MOST_DAMPING).then(|| of_damping(v))
     });
     let panel = |name: &str, unit: &str, series: Vec<Series>, height: f64| {
@@ -298,18 +314,16 @@ pub(crate) fn frequency_and_damping(locus: &RootLocus, modes: &ModeTable, flight
     .with(panel("Damping ratio", "", damping, 380.0).with_guide_y(0.0, ""))
 }
 
-/// A line per branch of what `shown` makes of its values, and its name at the flight point; names nearer than a part of the
-/// range are left out but for the first.
+/// A line per branch of what `shown` makes of its values, and its name at the flight point.
 fn over_speed(
     locus: &RootLocus,
     flight_speed: f64,
-    apart: f64,
     shown: impl Fn((f64, f64)) -> Option<f64>,
 ) -> Vec<Series> {
     let speeds: Vec<f64> = locus.points.iter().map(|p| p.speed).collect();
     let here = at_flight_point(locus, flight_speed);
     let mut series = Vec::new();
-    let mut marked: Vec<(f64, &str)> = Vec::new();
+    let mut marked: Vec<((f64, f64), &str)> = Vec::new();
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for branch in &locus.branches {
         let (name, colour) = kind(branch);
@@ -323,24 +337,13 @@ fn over_speed(
             .iter()
             .fold((least, most), |(l, m), v| (l.min(*v), m.max(*v)));
         if let Some(value) = here.and_then(|k| values.get(k)).filter(|v| v.is_finite()) {
-            marked.push((*value, &branch.name));
+            marked.push(((flight_speed, *value), &branch.name));
         }
         series.push(Series::new(name, style, speeds.clone(), values));
     }
-    marked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut last = f64::INFINITY;
-    let labels: Vec<String> = marked
-        .iter()
-        .map(|(value, name)| {
-            let room = last - value > apart * (most - least);
-            if room {
-                last = *value;
-            }
-            if room { (*name).to_owned() } else { String::new() }
-        })
-        .collect();
-    let values: Vec<f64> = marked.iter().map(|m| m.0).collect();
-    let at = vec![flight_speed; values.len()];
+    marked.sort_by(|a, b| b.0.1.total_cmp(&a.0.1));
+    let labels = shared_labels(&marked, (f64::INFINITY, ONE_LABEL * (most - least)));
+    let (at, values): (Vec<f64>, Vec<f64>) = marked.iter().map(|(place, _)| *place).unzip();
     series
         .push(Series::new("flight point", dots(Colour::BLACK, Marker::Disc), at, values).with_labels(labels));
     series

@@ -167,8 +167,7 @@ fn locus(results: &Results<'_>) -> Result<Section, ReportError> {
     }
     section.figure(
         &figures::frequency_and_damping(locus, modes, speed),
-        "The same modes over speed. Damping ratios above 0.25 are left out, and of numbers too near to be read the first is \
-         shown.",
+        "The same modes over speed. Damping ratios above 0.25 are left out; points too near for a label each share one.",
     )?;
     Ok(section)
 }

@@ -63,7 +63,7 @@
 //! solution and names a freedom that it moves ([`Error::Mechanism`]); in modes it is a mode at 0 Hz, or, when it has no
 //! mass either, it is held and remarked. What was assumed stands in [`FemModel::remarks`] and [`Modes::remarks`].
 //!
-//! # Validity
+//! # Limits
 //! - Linear and undamped; no prestress, thermal loads, plates or solids.
 //! - A range of frequency is found from below: modes below V1 are computed too, and left out.
 //! - Eigenvalues carry rounding of about 1e-16 times the highest eigenvalue of the model: with very short stiff elements

@@ -21,6 +21,18 @@
 //! In: an [`Aircraft`] (plain data), [`ModelOptions`], a [`FlightPoint`]. Out: a [`Trim`], a linear
 //! [`StateSpace`](albatross_lti::StateSpace) with named states, inputs and outputs, [`TimeHistory`]s.
 //!
+//! | module | in | out |
+//! |---|---|---|
+//! | [`derivatives`] | stability derivatives of AVL, corrections | [`RigidAerodynamics`](aerodynamics::RigidAerodynamics) about the centre of gravity |
+//! | [`aircraft`] | | the data of an [`Aircraft`] and the choices of [`ModelOptions`] |
+//! | [`mod@trim`] | an aircraft and a flight point | [`EquationsOfMotion`] and the [`Trim`] |
+//! | [`mod@linearize`] | equations, state and input | A, B, C, D by dual numbers, exact to rounding |
+//! | [`mod@simulate`] | equations, a trim, a [`signal`] | [`TimeHistory`] |
+//! | [`sensor`] | | what is measured, and where |
+//! | [`layout`] | | which state sits where |
+//! | [`lag_form`] | a linear system with lags | the same with their block diagonal |
+//! | [`atmosphere`] | geopotential altitude | density, temperature, speed of sound (ISA) |
+//!
 //! # Limits
 //! Coefficients are linear in incidence and rates, the atmosphere is at rest, the earth is flat, inertia is that of
 //! the undeformed shape. Deformation is small: linear structure, fixed mode shapes.

@@ -1,5 +1,6 @@
 //! Linear time-invariant systems with named signals.
 //!
+//! # The problem
 //! Linearised about a trimmed flight, the flexible aircraft is
 //! ```text
 //! x' = A x + B u        x: rigid-body, modal and lag states
@@ -9,6 +10,7 @@
 //! or mass changed ([`Tracker`]), how does it answer a sinusoid ([`frequency_response`]) or a manoeuvre
 //! ([`simulate`]), and which low-order transfer function has the same poles and zeros ([`Zpk`]).
 //!
+//! # Inputs and outputs
 //! | module | in | out |
 //! |---|---|---|
 //! | [`state_space`] | matrices and names | [`StateSpace`]: selection and connection by name |
@@ -17,6 +19,7 @@
 //! | [`lags`] | a matrix with lag states | single eigenvalues by their elimination, followed along a path |
 //! | [`frequency`] | a system, frequencies in rad/s | [`Response`]: magnitude and unwrapped phase |
 //! | [`simulation`] | a system, sampled or continuous inputs | [`History`] of states and outputs |
+//! | [`exponential`](mod@exponential) | a matrix | its exponential |
 //! | [`stride`] | a system, sampled inputs | outputs alone, many steps at a time |
 //! | [`zpk`], [`polynomial`] | a channel | zeros, poles and gain; transfer function; state space again |
 //!
@@ -24,7 +27,8 @@
 //! results are independent of the units chosen for the states, because every eigenproblem and resolvent is
 //! balanced first.
 //!
-//! **Validity.** Coalescing eigenvalues have ill-conditioned vectors; tracking through them is reported with
+//! # Limits
+//! Coalescing eigenvalues have ill-conditioned vectors; tracking through them is reported with
 //! a confidence and refused rather than guessed ([`Error::Unresolved`]). Transfer-function coefficients of
 //! systems beyond about ten states lose digits; zeros, poles and gain do not.
 //!

@@ -48,7 +48,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Validity
+//! # Limits
 //! - The mass matrix holds CONM1, CONM2, and the mass of bars, beams and rods. Any other mass in the deck is named,
 //!   and the mean-axes check is refused ([`MeanAxes::Refused`]) rather than made with a wrong matrix. The basis
 //!   itself is then still given, with the mass properties of the grid point weight generator.

@@ -1,11 +1,13 @@
 //! Dense numerical methods for flight dynamics and aeroelasticity.
 //!
+//! # The problem
 //! Linearised aeroelastic models have a few hundred states whose units differ by many orders of
 //! magnitude: radians beside metres of altitude, modal amplitudes beside lag velocities. Their
 //! eigenvalues, responses and time histories must not depend on that choice of units. This crate is a
 //! thin layer over [`faer`] (dense decompositions) and [`nalgebra`] (frames, rotations) that adds what
-//! they leave out and this field needs:
+//! they leave out and this field needs.
 //!
+//! # Inputs and outputs
 //! | module | what it solves |
 //! |---|---|
 //! | [`eigen`] | A v = lambda v, always balanced; A v = lambda B v; K phi = lambda M phi |
@@ -19,7 +21,8 @@
 //! Everything is deterministic and runs on the calling thread. Inputs that are not finite, have the wrong
 //! shape, or make the problem singular are errors ([`Error`]) that carry the numbers needed to act.
 //!
-//! **Validity.** Matrices are dense and of moderate order (up to about a thousand). Defective eigenvalues
+//! # Limits
+//! Matrices are dense and of moderate order (up to about a thousand). Defective eigenvalues
 //! (the chains of rigid-body integrators) are returned to the accuracy that their condition allows, which is
 //! a root of the rounding unit.
 //!

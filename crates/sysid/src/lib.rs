@@ -17,9 +17,9 @@
 //! # The way
 //! | step | module | in, out |
 //! |---|---|---|
-//! | read | [`table`] | text of a table; a record with names and units |
+//! | read | [`table`], [`data`] | text of a table; a record with names and units, a [`DataSet`] of several |
 //! | prepare | [`trim`], [`hold`], [`mod@decimate`], [`advice`] | a record; deviations from trim, behaviour between samples, what the data can show |
-//! | estimate | [`mod@estimate`], [`refine`] | a [`DataSet`] and [`Options`]; an [`Estimate`] |
+//! | estimate | [`mod@estimate`], [`refine`] | a [`DataSet`] and [`Options`]; an [`Estimate`] with its [`model`] |
 //! | judge | [`score`], [`uncertainty`], [`residuals`], [`mod@criteria`] | fits, standard deviations, whiteness, information criteria |
 //! | choose the order | [`mod@search`] | a range of orders; scores on records not seen |
 //! | compare | [`matching`], [`mod@bode_distance`], [`mod@response_peaks`], [`fit`], [`mod@peaks`] | poles, responses and histories beside others |

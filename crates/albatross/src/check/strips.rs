@@ -3,14 +3,18 @@
 use super::aerodynamics::strip_file;
 use super::files::Files;
 use super::{Findings, Subject};
-use crate::case::{GridEntry, grid_list};
+use crate::case::{GridEntry, LiftSlopes, grid_list};
 use albatross_avl::results::{Strip, StripForces};
-use albatross_strip::slopes::{self, base_name};
+use albatross_strip::shapes::DihedralForm;
+use albatross_strip::slopes::{self, StripRecord, base_name};
 
 /// Section lift slopes that AVL gives to lifting surfaces \[1/rad\].
 const SLOPES: std::ops::RangeInclusive<f64> = 0.5..=15.0;
 /// How far slopes of strips and derivatives of one aircraft may differ: the runs differ in incidence.
 const SAME_SLOPE: f64 = 0.1;
+
+/// Dihedral from which on a surface is a fin \[rad\].
+const FIN: f64 = 0.8;
 
 /// An axis with less extent across the stream than this share of that along it is no axis of a surface.
 const MOST_STREAMWISE: f64 = 0.2;
@@ -77,14 +81,15 @@ fn incidences(subject: &Subject, files: &Files, low: &StripForces, high: &StripF
             return;
         }
     }
-    let odd = records.iter().find(|r| {
-        let named = subject.case.aerodynamics.surfaces.iter();
-        let own = named
-            .filter(|s| s.name.trim().eq_ignore_ascii_case(base_name(&r.surface)))
-            .count()
-            > 0;
-        own && r.dihedral_rad.abs() < 0.8 && !SLOPES.contains(&r.cl_alpha)
-    });
+    let own = |r: &&StripRecord| {
+        let mut named = subject.case.aerodynamics.surfaces.iter();
+        named.any(|s| s.name.trim().eq_ignore_ascii_case(base_name(&r.surface)))
+    };
+    fins(subject, records.iter().filter(own), found);
+    let odd = records
+        .iter()
+        .filter(own)
+        .find(|r| r.dihedral_rad.abs() < FIN && !SLOPES.contains(&r.cl_alpha));
     if let Some(strip) = odd {
         found.warning(
             &strip_file(subject, files, 0),
@@ -93,6 +98,25 @@ fn incidences(subject: &Subject, files: &Files, low: &StripForces, high: &StripF
                 strip.index, strip.surface, strip.cl_alpha
             ),
             "look at that strip: a control deflected in one of the runs, or surfaces that cut each other",
+        );
+    }
+}
+
+/// A fin that is to carry loads, and does not feel the incidence that the two files differ by.
+fn fins<'a>(subject: &Subject, mut own: impl Iterator<Item = &'a StripRecord>, found: &mut Findings) {
+    let aerodynamics = &subject.case.aerodynamics;
+    if aerodynamics.dihedral != DihedralForm::General || aerodynamics.lift_slopes != LiftSlopes::Avl {
+        return;
+    }
+    if let Some(strip) = own.find(|r| r.dihedral_rad.abs() >= FIN && r.cl_alpha.abs() < *SLOPES.start()) {
+        found.warning(
+            &subject.at("aerodynamics.dihedral"),
+            format!(
+                "`{}` has a lift slope of {:.3} a radian from two incidences, and carries no unsteady loads",
+                strip.surface.trim(),
+                strip.cl_alpha
+            ),
+            "take lift_slopes = \"prandtl_glauert\" or \"lattice\" with dihedral = \"general\"",
         );
     }
 }

@@ -169,6 +169,19 @@ const SEEDS: &[Seed] = &[
         cure: "the second would be near 2.0",
     },
     Seed {
+        damage: |c| {
+            c.replace(
+                "case.toml",
+                "[aerodynamics]\n",
+                "[aerodynamics]\ndihedral = \"general\"\n",
+            )
+        },
+        severity: "warning",
+        place: "case.toml:25",
+        what: "`VTP` has a lift slope of 0.000 a radian from two incidences",
+        cure: "take lift_slopes = ",
+    },
+    Seed {
         damage: |c| c.replace("case.toml", "avl_out/alpha2.fs", "avl_out/alpha1.fs"),
         severity: "error",
         place: "case.toml:27",
