@@ -58,7 +58,7 @@ impl<'l> Influence<'l> {
     /// Assembles the boundary conditions; two half systems where the lattice is symmetric.
     ///
     /// # Errors
-    /// [`Error::Value`] for a Mach number outside 0 to 1.
+    /// [`Error::Value`] for a Mach number outside 0 to 1; what [`Lattice::check`] returns.
     pub fn assemble(lattice: &'l Lattice, method: &Method, mach: f64) -> Result<Self> {
         Self::new(lattice, method, mach, true)
     }
@@ -79,6 +79,8 @@ impl<'l> Influence<'l> {
                 expected: "Prandtl and Glauert's rule holds from 0 to below 1",
             });
         }
+        // All that follows indexes by what the lattice says of itself.
+        lattice.check()?;
         let components = components(lattice);
         let horseshoes = Horseshoes::new(lattice, mach, &method.core, &components);
         let n = horseshoes.len();
@@ -104,7 +106,7 @@ impl<'l> Influence<'l> {
             .collect();
         let mut influence = Self {
             lattice,
-            method: *method,
+            method: method.bounded(),
             mach,
             horseshoes,
             components,
@@ -130,7 +132,7 @@ impl<'l> Influence<'l> {
         } = self;
         // Pairs stand first and in the same order in both halves: one row serves both.
         let longest = systems.iter().map(|(u, _)| u.members.len()).max().unwrap_or(0);
-        let chunk = longest.div_ceil(method.threads.max(1)).max(1);
+        let chunk = longest.div_ceil(method.threads).max(1);
         let mut parts: Vec<(&Unknowns, MatMut<'_, f64>)> =
             systems.iter_mut().map(|(u, a)| (&*u, a.as_mut())).collect();
         let mut jobs = Vec::new();
@@ -179,7 +181,7 @@ impl<'l> Influence<'l> {
                     .into_iter()
                     .map(|(u, a)| scope.spawn(move || Factors::new(u, a)))
                     .collect();
-                handles.into_iter().filter_map(|h| h.join().ok()).collect()
+                handles.into_iter().map(joined).collect()
             })
         } else {
             systems.into_iter().map(|(u, a)| Factors::new(u, a)).collect()
@@ -196,6 +198,13 @@ impl<'l> Influence<'l> {
             systems,
         })
     }
+}
+
+/// What a thread found; its panic goes on in the caller's, since an answer that lacks a part would pass for one.
+pub(crate) fn joined<T>(handle: std::thread::ScopedJoinHandle<'_, T>) -> T {
+    handle
+        .join()
+        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Fills columns from `start` of each part.

@@ -23,11 +23,15 @@ pub struct Method {
     /// header's profile drag, and the derivatives by alpha at non-zero roll or yaw rate turn the rotation the wrong
     /// way. All else is exact either way.
     pub printed_derivatives: bool,
-    /// Threads; 1 runs on the caller's alone. Results do not depend on it.
+    /// Threads, from 1 to [`Method::MOST_THREADS`]; other numbers count as the nearest of these. 1 runs on the caller's
+    /// alone. Results do not depend on it.
     pub threads: usize,
 }
 
 impl Method {
+    /// Most threads that are started.
+    pub const MOST_THREADS: usize = 64;
+
     /// As AVL 3.52.
     pub const AVL_352: Self = Self {
         core: CoreRadii::AVL_352,
@@ -49,6 +53,14 @@ impl Method {
         printed_derivatives: true,
         threads: 1,
     };
+
+    /// With a number of threads that can be started.
+    pub(crate) fn bounded(&self) -> Self {
+        Self {
+            threads: self.threads.clamp(1, Self::MOST_THREADS),
+            ..*self
+        }
+    }
 
     /// Takes the core radii that the geometry sets (`CORE`, AVL 3.5x), if any.
     #[must_use]

@@ -24,8 +24,18 @@ impl Solver<'_> {
     /// the bound vortices.
     ///
     /// # Errors
-    /// [`Error::Value`] for a strip that is not there; else as [`Solver::flow`].
+    /// [`Error::Value`] for a strip that is not there, [`Error::Length`] for more indices than there are strips; else as
+    /// [`Solver::flow`].
     pub fn strip_slopes(&self, condition: &Condition, strips: &[usize]) -> Result<Mat<f64>> {
+        // Every index costs a solution, repeated ones too.
+        let n_strips = self.lattice().strips.len();
+        if strips.len() > n_strips {
+            return Err(Error::Length {
+                what: "indices of strips, each once",
+                found: strips.len(),
+                expected: n_strips,
+            });
+        }
         let flow = self.flow(condition)?;
         let rhs: Vec<Vec<f64>> = strips
             .iter()

@@ -254,7 +254,7 @@ impl Solver<'_> {
     ///
     /// # Errors
     /// [`Error::TargetTwice`], [`Error::TrimSingular`], [`Error::TrimNotConverged`], [`Error::TrimOutOfRange`];
-    /// [`Error::Length`] for targets that do not fit the lattice.
+    /// [`Error::Length`] for targets that do not fit the lattice; [`Error::Value`] for a target that is not finite.
     pub fn trim(&self, trim: &Trim) -> Result<Solution<'_>> {
         let lattice = self.lattice();
         let n = 5 + lattice.controls.len();
@@ -263,6 +263,13 @@ impl Solver<'_> {
                 what: "targets of the trim (alpha, beta, three rates, each control)",
                 found: trim.targets.len(),
                 expected: n,
+            });
+        }
+        if let Some(target) = trim.targets.iter().find(|t| !t.value.is_finite()) {
+            return Err(Error::Value {
+                what: format!("the target {}", target_name(&target.kind)),
+                value: target.value,
+                expected: "it must be finite",
             });
         }
         let measures: Vec<Measure> = trim
@@ -295,6 +302,7 @@ impl Solver<'_> {
         let mut row = vec![0.0; n];
         let mut residual = vec![0.0; n];
         let mut worst = (0, f64::INFINITY);
+        let mut last = 0;
         for iteration in 0..=ITERATIONS {
             let solution = self.solve(&condition(&x, trim))?;
             for (i, (measure, goal)) in measures.iter().zip(&goals).enumerate() {
@@ -303,13 +311,18 @@ impl Solver<'_> {
                     jacobian[(i, j)] = *value;
                 }
             }
+            // What is not a number is off by most.
             worst = residual
                 .iter()
                 .map(|r| r.abs())
                 .enumerate()
-                .fold((0, 0.0), |w, r| if r.1 > w.1 { r } else { w });
+                .fold((0, 0.0), |w, r| if r.1 > w.1 || r.1.is_nan() { r } else { w });
             if worst.1 <= TOLERANCE {
                 return Ok(solution);
+            }
+            last = iteration;
+            if worst.1.is_nan() {
+                break;
             }
             let step = solve::solve_vec(jacobian.as_ref(), &residual).map_err(|_| Error::TrimSingular {
                 target: trim
@@ -331,7 +344,7 @@ impl Solver<'_> {
             }
         }
         Err(Error::TrimNotConverged {
-            iterations: ITERATIONS,
+            iterations: last,
             target: trim
                 .targets
                 .get(worst.0)

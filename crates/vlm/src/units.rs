@@ -7,7 +7,7 @@ use albatross_numerics::Mat;
 use albatross_numerics::faer::linalg::matmul::matmul;
 use albatross_numerics::faer::{Accum, Par};
 
-use crate::influence::{Factorised, sums_to_zero};
+use crate::influence::{Factorised, joined, sums_to_zero};
 use crate::kernel::Velocities;
 use crate::lattice::{Lattice, V3};
 use crate::symmetry::Part;
@@ -143,8 +143,7 @@ impl Factorised<'_> {
         }
         targets.sort_unstable();
         targets.dedup();
-        let threads = self.method.threads.max(1);
-        let chunk = targets.len().div_ceil(threads).max(1);
+        let chunk = targets.len().div_ceil(self.method.threads).max(1);
         let results: Vec<(usize, usize, Part, V3, Option<usize>)> = std::thread::scope(|scope| {
             let mut jobs = targets.chunks(chunk);
             let own = jobs.next().unwrap_or(&[]);
@@ -153,7 +152,7 @@ impl Factorised<'_> {
                 .collect();
             let mut out = self.velocities(parts, own);
             for handle in handles {
-                out.extend(handle.join().unwrap_or_default());
+                out.extend(joined(handle));
             }
             out
         });

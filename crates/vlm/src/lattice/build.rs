@@ -15,6 +15,8 @@ use crate::spacing::{ChordStation, chord_stations};
 const MOST_VORTICES: usize = 20_000;
 /// Most nodes of a body.
 const MOST_NODES: usize = 10_000;
+/// Most nodes of all bodies, images included: every one of them acts on every vortex.
+const MOST_NODES_OF_ALL: usize = 2 * MOST_NODES;
 /// Most controls and design variables; AVL's own limit is 30 of each. Every strip asks for every one.
 const MOST_VARIABLES: usize = 1000;
 
@@ -30,7 +32,7 @@ impl Lattice {
     /// # Errors
     /// [`Error::NoSurfaces`]; [`Error::Surface`] for sections without chord or distance, or too few strips;
     /// [`Error::Airfoil`]; [`Error::Body`]; [`Error::Value`] for reference lengths that are not positive and for more than
-    /// 20 000 vortices, 10 000 nodes of a body or 1000 controls and design variables.
+    /// 20 000 vortices, 10 000 nodes of a body, 20 000 of all bodies, or 1000 controls and design variables.
     pub fn new(geometry: &Geometry, files: &Files<'_>) -> Result<(Self, Vec<String>)> {
         check_header(geometry)?;
         check_size(geometry)?;
@@ -348,14 +350,48 @@ fn check_size(geometry: &Geometry) -> Result<()> {
             expected: "at most 1000: give those that move together one name",
         });
     }
-    match geometry.bodies.iter().find(|b| b.spacing.count > MOST_NODES) {
-        Some(body) => Err(Error::Value {
-            what: format!("Nbody of body \"{}\"", body.name.trim()),
-            value: body.spacing.count as f64,
-            expected: "at most 10000",
-        }),
-        None => Ok(()),
+    for surface in &geometry.surfaces {
+        for (k, section) in surface.sections.iter().enumerate() {
+            // Lines that repeat a name are looked through for every strip.
+            for (keyword, count) in [
+                ("CONTROL", section.controls.len()),
+                ("DESIGN", section.designs.len()),
+            ] {
+                if count > MOST_VARIABLES {
+                    return Err(Error::Value {
+                        what: format!(
+                            "the number of {keyword} lines of surface \"{}\", section {},",
+                            surface.name.trim(),
+                            k + 1
+                        ),
+                        value: count as f64,
+                        expected: "at most 1000: give each variable one line",
+                    });
+                }
+            }
+        }
     }
+    let mut nodes = 0_usize;
+    for body in &geometry.bodies {
+        let own = body.spacing.count;
+        if own > MOST_NODES {
+            return Err(Error::Value {
+                what: format!("Nbody of body \"{}\"", body.name.trim()),
+                value: own as f64,
+                expected: "at most 10000",
+            });
+        }
+        let sides = if body.y_duplicate.is_some() { 2 } else { 1 };
+        nodes = nodes.saturating_add(own.saturating_mul(sides));
+        if nodes > MOST_NODES_OF_ALL {
+            return Err(Error::Value {
+                what: format!("the number of nodes up to body \"{}\"", body.name.trim()),
+                value: nodes as f64,
+                expected: "at most 20000 of all bodies and images: lower its Nbody",
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Sections of a surface with scale, translation, incidence, camber and drag polar worked in.

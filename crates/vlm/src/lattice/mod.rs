@@ -12,6 +12,7 @@ use albatross_avl::geometry::{CoreRadii, DragPolar};
 use albatross_avl::results::Reference;
 
 use crate::body::LatticeBody;
+use crate::error::{Error, Result};
 
 pub use build::Files;
 
@@ -171,8 +172,73 @@ impl Lattice {
         self.controls.iter().map(|c| c.name.as_str())
     }
 
+    /// Checks that surfaces, strips, vortices and what controls and design variables move name each other's places, and
+    /// that the reference can be divided by.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for an index or a range that leads out of its list; [`Error::Value`] for a reference length or
+    /// area that is not positive and finite, or a moment point that is not finite.
+    pub fn check(&self) -> Result<()> {
+        let r = &self.reference;
+        for (what, value, length) in [
+            ("reference area Sref", r.s_ref, true),
+            ("reference chord Cref", r.c_ref, true),
+            ("reference span Bref", r.b_ref, true),
+            ("moment reference point x", r.x_ref, false),
+            ("moment reference point y", r.y_ref, false),
+            ("moment reference point z", r.z_ref, false),
+        ] {
+            if !value.is_finite() || (length && value <= 0.0) {
+                return Err(Error::Value {
+                    what: format!("the lattice's {what}"),
+                    value,
+                    expected: if length {
+                        "it must be positive and finite"
+                    } else {
+                        "it must be finite"
+                    },
+                });
+            }
+        }
+        // An index needs a list that is longer, a range one that is as long as its end.
+        let reaches = |what: &'static str, needed: usize, length: usize| {
+            if needed <= length {
+                return Ok(());
+            }
+            Err(Error::Length {
+                what,
+                found: length,
+                expected: needed,
+            })
+        };
+        let ordered = |what: &'static str, range: &Range<usize>, length: usize| {
+            reaches(what, range.start, range.end)?;
+            reaches(what, range.end, length)
+        };
+        let (strips, vortices) = (self.strips.len(), self.vortices.len());
+        for surface in &self.surfaces {
+            ordered("strips for the range of a surface", &surface.strips, strips)?;
+        }
+        for strip in &self.strips {
+            let needed = strip.surface.saturating_add(1);
+            reaches("surfaces for the index of a strip", needed, self.surfaces.len())?;
+            ordered("vortices for the range of a strip", &strip.vortices, vortices)?;
+        }
+        for vortex in &self.vortices {
+            let needed = vortex.strip.saturating_add(1);
+            reaches("strips for the index of a vortex", needed, strips)?;
+        }
+        for change in self.controls.iter().chain(&self.designs) {
+            for panel in &change.panels {
+                let needed = panel.vortex.saturating_add(1);
+                reaches("vortices for the index of a moved panel", needed, vortices)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Surface of a vortex.
-    pub fn surface_of(&self, vortex: &Vortex) -> &LatticeSurface {
+    pub(crate) fn surface_of(&self, vortex: &Vortex) -> &LatticeSurface {
         &self.surfaces[self.strips[vortex.strip].surface]
     }
 }

@@ -26,8 +26,7 @@ const CLOSED: f64 = 1e-9;
 /// The flow at a flight condition with all its forces.
 pub struct Solution<'s> {
     solver: &'s Solver<'s>,
-    /// Circulations and induced velocities.
-    pub flow: Flow,
+    flow: Flow,
     loads: Loads,
     table: Table,
     wake: Wake<'s>,
@@ -61,6 +60,11 @@ impl Solution<'_> {
     /// The flight condition.
     pub fn condition(&self) -> &Condition {
         &self.flow.condition
+    }
+
+    /// Circulations and induced velocities.
+    pub fn flow(&self) -> &Flow {
+        &self.flow
     }
 
     pub(crate) fn table(&self) -> &Table {
