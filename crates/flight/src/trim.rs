@@ -212,7 +212,7 @@ impl StaticShape {
                     speed: point.speed,
                 };
                 // At rest quasi-steady air is the unsteady one: all lags are zero.
-                let stiffness = part.model.static_stiffness(flow);
+                let stiffness = part.model.static_stiffness(flow)?;
                 Some(solve::inverse(stiffness.as_ref())?)
             }
         };

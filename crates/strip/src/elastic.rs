@@ -19,6 +19,9 @@ use crate::strip::{Strip, StripTheory};
 use crate::{Error, ensure_finite, ensure_finite_entries, ensure_shape};
 use albatross_numerics::{Mat, solve};
 
+/// Most states of a state matrix: one of as many takes 3.2 GB.
+const MOST_STATES: usize = 20_000;
+
 /// Structural mass, damping and stiffness in the shapes' coordinates, n x n, symmetric.
 #[derive(Debug, Clone)]
 pub struct Structure {
@@ -189,18 +192,60 @@ impl AeroelasticModel {
         Ok(Self { forces, ..self })
     }
 
+    /// Checks that structure, forces, downwash and strips are of one size, and the structure's numbers finite. The shapes
+    /// are not looked at: what follows from them is in forces and downwash.
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::NotFinite`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.structure.check()?;
+        let (n, strips) = (self.n_modes(), self.strips.len());
+        let (forces, downwash) = (&self.forces, &self.downwash);
+        for (what, matrix, expected) in [
+            ("the force matrix eta_etadd_nc", &forces.eta_etadd_nc, (n, n)),
+            ("the force matrix eta_etad_nc", &forces.eta_etad_nc, (n, n)),
+            ("the force matrix eta_etad_c", &forces.eta_etad_c, (n, n)),
+            ("the force matrix eta_eta_nc", &forces.eta_eta_nc, (n, n)),
+            ("the force matrix eta_eta_c", &forces.eta_eta_c, (n, n)),
+            ("the force matrix eta_lambda_c", &forces.eta_lambda_c, (n, strips)),
+            ("the downwash matrix w_eta", &downwash.w_eta, (strips, n)),
+            ("the downwash matrix w_etad", &downwash.w_etad, (strips, n)),
+        ] {
+            ensure_shape(what, matrix, expected)?;
+        }
+        Ok(())
+    }
+
     /// Number of elastic coordinates.
     pub fn n_modes(&self) -> usize {
         self.structure.n()
     }
 
     /// `mu - rho Q_etadd`: structure and apparent mass.
-    pub fn mass(&self, rho: f64) -> Mat<f64> {
-        &self.structure.mass - rho * &self.forces.eta_etadd_nc
+    ///
+    /// # Errors
+    /// As [`AeroelasticModel::check`].
+    pub fn mass(&self, rho: f64) -> Result<Mat<f64>, Error> {
+        self.check()?;
+        Ok(self.checked_mass(rho))
     }
 
     /// `K - rho V^2 Q_eta`: the static aeroelastic stiffness.
-    pub fn static_stiffness(&self, flow: Flow) -> Mat<f64> {
+    ///
+    /// # Errors
+    /// As [`AeroelasticModel::check`].
+    pub fn static_stiffness(&self, flow: Flow) -> Result<Mat<f64>, Error> {
+        self.check()?;
+        Ok(self.checked_stiffness(flow))
+    }
+
+    /// [`AeroelasticModel::mass`] of a model known to fit together.
+    pub(crate) fn checked_mass(&self, rho: f64) -> Mat<f64> {
+        &self.structure.mass - rho * &self.forces.eta_etadd_nc
+    }
+
+    /// [`AeroelasticModel::static_stiffness`] of a model known to fit together.
+    fn checked_stiffness(&self, flow: Flow) -> Mat<f64> {
         &self.structure.stiffness - flow.rho * flow.speed.powi(2) * self.forces.eta_eta()
     }
 
@@ -234,7 +279,8 @@ pub struct PiMatrices {
 ///
 /// # Errors
 /// [`Error::Numerics`] if `mu - rho Q_etadd` is singular or `q_x` or `q_u` have another number of rows than there are
-/// modes, [`Error::BadFlow`] for a density or speed that is negative or not finite.
+/// modes, [`Error::BadFlow`] for a density or speed that is negative or not finite; what [`AeroelasticModel::check`]
+/// returns.
 pub fn pi_matrices(
     model: &AeroelasticModel,
     flow: Flow,
@@ -242,14 +288,15 @@ pub fn pi_matrices(
     q_x: &Mat<f64>,
     q_u: &Mat<f64>,
 ) -> Result<PiMatrices, Error> {
+    model.check()?;
     ensure_finite("density", flow.rho)?;
     ensure_finite("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
-    let mass = model.mass(rho);
+    let mass = model.checked_mass(rho);
     let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
     let dynamic_pressure = 0.5 * rho * speed * speed * reference.area * reference.chord;
     Ok(PiMatrices {
-        pi1: per_mass(-model.static_stiffness(flow))?,
+        pi1: per_mass(-model.checked_stiffness(flow))?,
         pi2: per_mass(rho * speed * model.forces.eta_etad() - &model.structure.damping)?,
         pi3: per_mass(rho * speed * &model.forces.eta_lambda_c)?,
         pi4: per_mass(dynamic_pressure * q_x)?,
@@ -261,14 +308,16 @@ pub fn pi_matrices(
 ///
 /// # Errors
 /// [`Error::Numerics`] if `mu - rho Q_etadd` is singular, [`Error::BadFlow`] for a density or speed that is negative
-/// or not finite.
+/// or not finite, [`Error::BadOption`] for more than 20 000 states; what [`AeroelasticModel::check`] returns.
 pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    model.check()?;
     ensure_finite("density", flow.rho)?;
     ensure_finite("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let (n, n_strips) = (model.n_modes(), model.strips.len());
-    let mass = model.mass(rho);
-    let pi1 = solve::solve(mass.as_ref(), (-model.static_stiffness(flow)).as_ref())?;
+    let n_states = n_states(n, model.lags.len(), n_strips)?;
+    let mass = model.checked_mass(rho);
+    let pi1 = solve::solve(mass.as_ref(), (-model.checked_stiffness(flow)).as_ref())?;
     let pi2 = solve::solve(
         mass.as_ref(),
         (rho * speed * model.forces.eta_etad() - &model.structure.damping).as_ref(),
@@ -281,7 +330,6 @@ pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Er
     let rate_by_etad = speed * w_eta + w_etad * &pi2;
     let rate_by_lag = w_etad * &pi3;
 
-    let n_states = 2 * n + model.lags.len() * n_strips;
     let mut a = Mat::zeros(n_states, n_states);
     for k in 0..n {
         a[(k, n + k)] = 1.0;
@@ -310,6 +358,19 @@ pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Er
     Ok(a)
 }
 
+/// Number of states of `n` modes and `each` for every lag.
+fn n_states(n: usize, lags: usize, each: usize) -> Result<usize, Error> {
+    let states = n.saturating_mul(2).saturating_add(lags.saturating_mul(each));
+    if states <= MOST_STATES {
+        return Ok(states);
+    }
+    Err(Error::BadOption {
+        option: "the number of states",
+        value: states as f64,
+        expected: "at most 20000: take fewer modes, strips or lags",
+    })
+}
+
 /// A smaller state matrix with the same eigenvalues but for pure lag roots.
 ///
 /// Lag states of strips of one chord decay at one rate `r`, and act on the modes only by their sum
@@ -321,12 +382,26 @@ pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Er
 /// # Errors
 /// As [`state_matrix`].
 pub fn compact_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    model.check()?;
     ensure_finite("density", flow.rho)?;
     ensure_finite("speed", flow.speed)?;
+    check_compact(model)?;
     Ok(assemble_compact(model, flow)?)
 }
 
-/// [`compact_state_matrix`] of a flow known to be usable.
+/// Lag states of each lag in the compact form.
+fn n_compact(groups: &[Vec<usize>], n: usize) -> usize {
+    groups.iter().map(|g| g.len().min(n)).sum()
+}
+
+/// Refuses a compact form of too many states.
+pub(crate) fn check_compact(model: &AeroelasticModel) -> Result<(), Error> {
+    let n = model.n_modes();
+    let each = n_compact(&strips_of_one_chord(&model.strips), n);
+    n_states(n, model.lags.len(), each).map(|_| ())
+}
+
+/// [`compact_state_matrix`] of a model and a flow known to be usable.
 pub(crate) fn assemble_compact(
     model: &AeroelasticModel,
     flow: Flow,
@@ -336,7 +411,7 @@ pub(crate) fn assemble_compact(
     let lift = &model.forces.eta_lambda_c;
     // Strips' downwash to lag states, lag states to modes: their product is Q_lambda.
     let groups = strips_of_one_chord(&model.strips);
-    let n_lag: usize = groups.iter().map(|g| g.len().min(n)).sum();
+    let n_lag = n_compact(&groups, n);
     let (mut gather, mut emit) = (Mat::zeros(n_lag, model.strips.len()), Mat::zeros(n, n_lag));
     let mut chord_of_state = Vec::with_capacity(n_lag);
     for group in &groups {
@@ -356,9 +431,9 @@ pub(crate) fn assemble_compact(
         chord_of_state.extend(std::iter::repeat_n(chord, group.len().min(n)));
     }
 
-    let mass = model.mass(rho);
+    let mass = model.checked_mass(rho);
     let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
-    let by_eta = per_mass(-model.static_stiffness(flow))?;
+    let by_eta = per_mass(-model.checked_stiffness(flow))?;
     let by_etad = per_mass(rho * speed * model.forces.eta_etad() - &model.structure.damping)?;
     let by_lag = per_mass(rho * speed * &emit)?;
     let by_acceleration = &gather * &model.downwash.w_etad;
@@ -410,14 +485,16 @@ fn strips_of_one_chord(strips: &[Strip]) -> Vec<Vec<usize>> {
 /// # Errors
 /// As [`state_matrix`].
 pub fn quasi_steady_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
+    model.check()?;
     ensure_finite("density", flow.rho)?;
     ensure_finite("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let n = model.n_modes();
+    let n_states = n_states(n, 0, 0)?;
     let mass = model.structure.mass.as_ref();
     let stiffness = rho * speed * speed * &model.forces.eta_eta_c - &model.structure.stiffness;
     let damping = rho * speed * &model.forces.eta_etad_c - &model.structure.damping;
-    let mut a = Mat::zeros(2 * n, 2 * n);
+    let mut a = Mat::zeros(n_states, n_states);
     for k in 0..n {
         a[(k, n + k)] = 1.0;
     }

@@ -59,10 +59,13 @@ fn lowest(model: &AeroelasticModel, rho: f64, kernel: Kernel<'_>) -> Result<Opti
 
 /// The aeroelastic operator of exact harmonic aerodynamics, `F(p, V)` with `F u = 0` for free motion `u exp(p t)`;
 /// Theodorsen's function is taken at `k_j = Im(p) b_j / V`.
-pub fn harmonic_operator(model: &AeroelasticModel, rho: f64, p: C64, speed: f64) -> Mat<C64> {
-    Operator::of(model, rho)
-        .evaluate(p, speed, Kernel::Theodorsen)
-        .value
+///
+/// # Errors
+/// As [`AeroelasticModel::check`].
+pub fn harmonic_operator(model: &AeroelasticModel, rho: f64, p: C64, speed: f64) -> Result<Mat<C64>, Error> {
+    model.check()?;
+    let operator = Operator::of(model, rho);
+    Ok(operator.evaluate(p, speed, Kernel::Theodorsen).value)
 }
 
 #[cfg(test)]

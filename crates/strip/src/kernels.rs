@@ -12,7 +12,7 @@ use albatross_numerics::special::{
     bessel_i0_scaled, bessel_i1_scaled, bessel_j0, bessel_j1, bessel_k0_scaled, bessel_k1_scaled, bessel_y0,
     bessel_y1,
 };
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// One exponential lag of an indicial function, in the signs of the paper's Eq. 9.
 ///
@@ -76,12 +76,18 @@ pub const KUESSNER_SEARS: [Lag; 2] = [
     },
 ];
 
+/// Reduced frequencies below this are zero to Theodorsen's function: the square of `H1(k)`, about `2/(pi k)`, overflows.
+const LEAST_K: f64 = 5e-155;
+
+/// Euler's constant.
+const EULER: f64 = 0.577_215_664_901_532_9;
+
 /// Theodorsen's function `C(k) = H1(k) / (H1(k) + i H0(k))`, Hankel functions of the second kind
 /// (NACA Report 496, 1935).
 ///
 /// `k = omega b / V` is the reduced frequency on the semi-chord; `C(0) = 1`. Negative `k` gives the conjugate.
 pub fn theodorsen(k: f64) -> C64 {
-    if k == 0.0 {
+    if k.abs() < LEAST_K {
         return C64::new(1.0, 0.0);
     }
     let x = k.abs();
@@ -92,8 +98,15 @@ pub fn theodorsen(k: f64) -> C64 {
 }
 
 /// `dC/dk`, from the recurrences `H0' = -H1`, `H1' = H0 - H1/k`: `i (H0^2 - H0 H1/k + H1^2) / (H1 + i H0)^2`.
+///
+/// Its imaginary part grows as `ln k` for small k; zero counts as the least normal number.
 pub fn theodorsen_derivative(k: f64) -> C64 {
-    let x = k.abs().max(f64::MIN_POSITIVE);
+    let x = k.abs();
+    if x < LEAST_K {
+        // C = 1 + k (i (ln(k/2) + Euler's constant) - pi/2) to first order.
+        let rate = (0.5 * x.max(f64::MIN_POSITIVE)).ln() + EULER + 1.0;
+        return C64::new(if k < 0.0 { FRAC_PI_2 } else { -FRAC_PI_2 }, rate);
+    }
     let h0 = C64::new(bessel_j0(x), -bessel_y0(x));
     let h1 = C64::new(bessel_j1(x), -bessel_y1(x));
     let denominator = h1 + C64::i() * h0;
@@ -161,6 +174,9 @@ pub fn indicial_lags(lags: &[Lag], s: f64) -> f64 {
 /// `phi(s) = 1 - int_0^inf exp(-x s) / (x^2 D(x)) dx`, `D = (K0 - K1)^2 + pi^2 (I0 + I1)^2` (Garrick 1938, NACA
 /// Report 629).
 pub fn wagner(s: f64) -> f64 {
+    if s.is_nan() {
+        return s;
+    }
     if s < 0.0 {
         return 0.0;
     }
@@ -176,6 +192,9 @@ pub fn wagner(s: f64) -> f64 {
 /// `psi(s) = 1 - int_0^inf exp(x (1 - s)) (I0 + I1) / (x^2 D(x)) dx`: the inverse transform of
 /// `exp(-p) / (p^2 (K0(p) + K1(p)))` (von Kármán & Sears 1938).
 pub fn kuessner(s: f64) -> f64 {
+    if s.is_nan() {
+        return s;
+    }
     if s < 0.0 {
         return 0.0;
     }
@@ -231,6 +250,29 @@ mod tests {
         let early = kuessner(1e-6) / ((2e-6_f64).sqrt() / PI);
         assert!((early - 1.0).abs() < 1e-2, "{early}");
         assert!((wagner(1e3) - (1.0 - 1.0 / 1e3)).abs() < 2e-5);
+    }
+
+    /// Complex division overflows at small k, and a sum without what is not finite is a number.
+    #[test]
+    fn regress_arguments_at_the_ends_of_the_numbers() {
+        let limit = C64::new(1.0, 0.0);
+        for k in [5e-155, 4e-155, 1e-200, 1e-300, f64::MIN_POSITIVE, 5e-324] {
+            for k in [k, -k] {
+                assert!((theodorsen(k) - limit).norm() < 1e-150, "{k}: {}", theodorsen(k));
+                let slope = theodorsen_derivative(k);
+                assert!((slope.re + k.signum() * FRAC_PI_2).abs() < 1e-12, "{k}: {slope}");
+                assert!(Kernel::Theodorsen.by_logarithm(C64::new(0.0, k)).norm() < 1e-150);
+            }
+        }
+        assert!(theodorsen_derivative(0.0).is_finite());
+        // Both sides of the limit are on one logarithm.
+        let [below, above] = [4.99e-155, 5.01e-155].map(theodorsen_derivative);
+        let step = C64::new(0.0, (5.01_f64 / 4.99).ln());
+        assert!((above - below - step).norm() < 1e-9, "{below} {above}");
+        for f in [wagner, kuessner] {
+            assert!(f(f64::NAN).is_nan());
+        }
+        assert!(theodorsen(f64::NAN).is_nan() && theodorsen_derivative(f64::NAN).is_nan());
     }
 
     /// The branch-cut integrals by mpmath 1.3 (30 digits, Gauss-Legendre on split intervals).

@@ -56,7 +56,7 @@ pub struct NeutralPoints {
 /// # Errors
 /// [`Error::BadFlow`] for a density that is negative or not finite, [`Error::BadMode`] for a structure that is
 /// unstable by itself, [`Error::Numerics`] for a mass matrix that is not positive definite or entries that are not
-/// finite.
+/// finite; what [`AeroelasticModel::check`] returns.
 pub fn neutral_points(
     model: &AeroelasticModel,
     rho: f64,

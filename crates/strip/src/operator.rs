@@ -59,12 +59,12 @@ impl Evaluation {
 }
 
 impl Operator {
-    /// In the model's own coordinates.
+    /// In the own coordinates of a model known to fit together.
     pub(crate) fn of(model: &AeroelasticModel, rho: f64) -> Self {
         let (forces, downwash) = (&model.forces, &model.downwash);
         Self {
             rho,
-            mass: model.mass(rho),
+            mass: model.checked_mass(rho),
             damping: model.structure.damping.clone(),
             stiffness: model.structure.stiffness.clone(),
             rate: forces.eta_etad() - &forces.eta_lambda_c * &downwash.w_etad,
@@ -175,6 +175,7 @@ pub(crate) struct ModalOperator {
 
 impl ModalOperator {
     pub(crate) fn of(model: &AeroelasticModel, rho: f64) -> Result<Self, Error> {
+        model.check()?;
         let operator = Operator::of(model, rho);
         let (squares, modes) =
             eigen::symmetric_generalized(operator.stiffness.as_ref(), operator.mass.as_ref())?;

@@ -129,10 +129,12 @@ impl StripShapes {
         self.phi.ncols()
     }
 
-    /// Displacement at a chordwise point of each strip: `phi - (x - x_lra) gamma`, strips x shapes. Rows without a strip
-    /// are left out.
+    /// Displacement at a chordwise point of each strip: `phi - (x - x_lra) gamma`, strips x shapes. Rows without a strip,
+    /// and what only one of phi and gamma has, are left out.
     pub fn at(&self, strips: &[Strip], x: impl Fn(&Strip) -> f64) -> Mat<f64> {
-        Mat::from_fn(self.n_strips().min(strips.len()), self.n_shapes(), |j, k| {
+        let rows = self.n_strips().min(self.gamma.nrows()).min(strips.len());
+        let columns = self.n_shapes().min(self.gamma.ncols());
+        Mat::from_fn(rows, columns, |j, k| {
             self.phi[(j, k)] - (x(&strips[j]) - strips[j].x_lra) * self.gamma[(j, k)]
         })
     }

@@ -147,8 +147,8 @@ trait Follow {
 ///
 /// # Errors
 /// [`Error::BadFlow`] for a density or speed that is negative or not finite, [`Error::NotIncreasing`] for speeds out of
-/// order, [`Error::Empty`] without speeds, what [`neutral_points`] returns, and [`Error::Tracking`] or
-/// [`Error::Numerics`] from the eigenproblems.
+/// order, [`Error::Empty`] without speeds, what [`neutral_points`] returns, [`Error::BadOption`] for a state space of more
+/// than 20 000 states, and [`Error::Tracking`] or [`Error::Numerics`] from the eigenproblems.
 pub fn sweep(
     model: &AeroelasticModel,
     rho: f64,

@@ -233,7 +233,7 @@ fn val_static_aeroelastic_derivatives() {
         rho: trim.density,
         speed: trim.speed(),
     };
-    let stiffness = part.model.static_stiffness(flow);
+    let stiffness = part.model.static_stiffness(flow).unwrap();
     let (area, chord) = (model.aircraft.reference.area, model.aircraft.reference.chord);
     let pressure = trim.dynamic_pressure;
     let increments = |load: &dyn Fn(usize) -> f64| -> (f64, f64) {

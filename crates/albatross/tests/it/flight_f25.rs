@@ -426,7 +426,8 @@ fn val_engines_in_place() {
         })
         .collect();
     let expected =
-        albatross::numerics::solve::solve_vec(part.model.static_stiffness(flow).as_ref(), &load).unwrap();
+        albatross::numerics::solve::solve_vec(part.model.static_stiffness(flow).unwrap().as_ref(), &load)
+            .unwrap();
     let size = expected.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     assert!(size > 0.0);
     for (k, expected) in expected.iter().enumerate() {

@@ -69,7 +69,7 @@ fn printed(aircraft: &Aircraft, equations: &EquationsOfMotion, x: &[f64], u: &[f
     let force: Vec<f64> = (0..eta.len())
         .map(|k| by_motion[k] + q_s_c * (part.q_0[k] + by_air[k] + by_u[k]) - spring[k] - damper[k])
         .collect();
-    let etadd = solve::solve_vec(model.mass(rho).as_ref(), &force).unwrap();
+    let etadd = solve::solve_vec(model.mass(rho).unwrap().as_ref(), &force).unwrap();
     let apparent = times(&part.rigid_rows.eta_etadd_nc, &etadd);
     let body = motion(&part.rigid_rows)
         .iter()

@@ -58,7 +58,7 @@ fn val_thrust_at_the_engines() {
     }
     let part = aircraft.elastic.as_ref().unwrap();
     let rho = atmosphere::standard(4_000.0).density;
-    let etadd = solve::solve_vec(part.model.mass(rho).as_ref(), &modal).unwrap();
+    let etadd = solve::solve_vec(part.model.mass(rho).unwrap().as_ref(), &modal).unwrap();
     for (found, expected) in change[layout.eta_rate()].iter().zip(&etadd) {
         assert!((found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
     }

@@ -23,13 +23,14 @@ pub struct DivergencePoint {
 /// # Errors
 /// [`Error::BadFlow`] for a density that is negative or not finite; [`Error::BadMode`] for a structure that is
 /// unstable by itself; [`Error::Numerics`] for matrices that are not finite, not symmetric, or a mass that is not
-/// positive definite.
+/// positive definite; what [`AeroelasticModel::check`] returns.
 pub fn divergence_points(
     model: &AeroelasticModel,
     rho: f64,
     kernel: Kernel<'_>,
 ) -> Result<Vec<DivergencePoint>, Error> {
     ensure_finite("density", rho)?;
+    model.check()?;
     let (squares, modes) =
         eigen::symmetric_generalized(model.structure.stiffness.as_ref(), model.structure.mass.as_ref())?;
     let omega = frequencies(&squares)?;

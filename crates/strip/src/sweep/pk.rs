@@ -66,7 +66,9 @@ impl PK {
         let mut slope = C64::new(0.0, 0.0);
         let mut confidence = 1.0_f64;
         while speed < to {
-            let next = if speed + 1.001 * step >= to {
+            // Between neighbouring numbers a part of the way may be no way at all.
+            let too_small = speed + step <= speed;
+            let next = if too_small || speed + 1.001 * step >= to {
                 to
             } else {
                 speed + step
@@ -81,7 +83,7 @@ impl PK {
             });
             let found = match solved {
                 Some(found) => found,
-                None if step > LEAST_STEP * gap => {
+                None if !too_small && step > LEAST_STEP * gap => {
                     step *= 0.5;
                     continue;
                 }
@@ -313,4 +315,36 @@ fn same_root(a: &Root, b: &Root) -> bool {
 fn duplicates(modes: &[Option<(Root, f64)>]) -> bool {
     let roots: Vec<&Root> = modes.iter().flatten().map(|(root, _)| root).collect();
     (0..roots.len()).any(|i| (0..i).any(|j| same_root(roots[i], roots[j])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::section::TypicalSection;
+
+    /// Steps of a part of the way between neighbouring numbers once led nowhere.
+    #[test]
+    fn regress_neighbouring_speeds() {
+        let section = TypicalSection {
+            mass: 31.41592653589793,
+            static_moment: std::f64::consts::TAU,
+            inertia: 2.5 * std::f64::consts::PI,
+            plunge_stiffness: 78539.81633974482,
+            pitch_stiffness: 78539.81633974482,
+            semi_chord: 1.0,
+            axis: -0.4,
+            cl_alpha: std::f64::consts::TAU,
+        };
+        let mut pk = PK::new(&section.model(&[]).unwrap(), 1.0).unwrap();
+        pk.advance(100.0, &mut Vec::new()).unwrap();
+        for root in pk.modes.iter().flatten() {
+            for largest_step in LARGEST_STEPS {
+                let found = pk.follow(root, 100.0_f64.next_up(), largest_step).unwrap();
+                let Some((found, confidence)) = found else {
+                    panic!("lost {root:?}");
+                };
+                assert!((found.p - root.p).norm() < 1e-9 * root.p.norm() && confidence > 0.999);
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::{Follow, Step};
 use crate::Error;
-use crate::elastic::{AeroelasticModel, Flow, assemble_compact};
+use crate::elastic::{AeroelasticModel, Flow, assemble_compact, check_compact};
 use crate::operator::ModalOperator;
 use albatross_lti::{TrackOptions, TrackedMode, Tracker};
 use albatross_numerics::{C64, Mat, eigen};
@@ -27,6 +27,7 @@ const OPTIONS: TrackOptions = TrackOptions {
 impl<'a> StateSpace<'a> {
     pub(super) fn new(model: &'a AeroelasticModel, rho: f64, speeds: &[f64]) -> Result<Self, Error> {
         let modal = ModalOperator::of(model, rho)?;
+        check_compact(model)?;
         let still = still_air(&modal)?;
         // In still air all lag states are alike, and vectors not defined: start where the air hardly matters.
         let slowest = still.iter().map(|p| p.norm()).fold(f64::INFINITY, f64::min);

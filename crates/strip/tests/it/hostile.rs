@@ -1,15 +1,20 @@
 //! Input that makes no sense gives an error that says why.
 
 use crate::models::invented;
+use albatross_numerics::C64;
 use albatross_numerics::Mat;
-use albatross_strip::elastic::{pi_matrices, quasi_steady_state_matrix, state_matrix};
-use albatross_strip::flutter::{divergence_speed, exact_flutter, lag_flutter};
-use albatross_strip::forces::{downwash, generalized_forces};
+use albatross_strip::elastic::{compact_state_matrix, pi_matrices, quasi_steady_state_matrix, state_matrix};
+use albatross_strip::flutter::{divergence_speed, exact_flutter, harmonic_operator, lag_flutter};
+use albatross_strip::forces::{Downwash, downwash, generalized_forces};
+use albatross_strip::kernels::Kernel;
 use albatross_strip::kernels::{JONES, Lag};
+use albatross_strip::neutral::{divergence_points, neutral_points};
 use albatross_strip::quasi_steady::{ReferenceShape, StripLoads, rigid_to_elastic};
 use albatross_strip::section::TypicalSection;
+use albatross_strip::sweep::{Method, sweep};
 use albatross_strip::{
-    AeroelasticModel, DihedralForm, Error, Flow, Split, Strip, StripShapes, StripTheory, Structure,
+    AeroelasticModel, DihedralForm, Error, Flow, GeneralizedForces, Split, Strip, StripShapes, StripTheory,
+    Structure,
 };
 
 fn strip() -> Strip {
@@ -299,4 +304,145 @@ fn regress_chords_of_no_scale_are_refused() {
     let strips = [1e-9, 1.0].map(|chord| Strip { chord, ..strip() }).to_vec();
     let found = model(strips, shapes(2, 2), &JONES).and_then(|m| lag_flutter(&m, 1.0));
     assert!(matches!(found, Err(Error::BadOption { .. })), "{found:?}");
+}
+
+/// The answers of all functions that take a model, without what they answer.
+fn answers(model: &AeroelasticModel) -> Vec<(&'static str, Result<(), Error>)> {
+    let (rho, speed) = (1.2, 30.0);
+    let flow = Flow { rho, speed };
+    let reference = ReferenceShape {
+        area: 1.0,
+        chord: 1.0,
+        span: 1.0,
+    };
+    let q = Mat::zeros(model.n_modes(), 1);
+    vec![
+        ("check", model.check()),
+        ("mass", model.mass(rho).map(drop)),
+        ("static_stiffness", model.static_stiffness(flow).map(drop)),
+        ("state_matrix", state_matrix(model, flow).map(drop)),
+        (
+            "compact_state_matrix",
+            compact_state_matrix(model, flow).map(drop),
+        ),
+        ("quasi_steady", quasi_steady_state_matrix(model, flow).map(drop)),
+        (
+            "pi_matrices",
+            pi_matrices(model, flow, &reference, &q, &q).map(drop),
+        ),
+        (
+            "harmonic_operator",
+            harmonic_operator(model, rho, C64::new(0.0, 5.0), speed).map(drop),
+        ),
+        ("divergence_speed", divergence_speed(model, rho).map(drop)),
+        (
+            "divergence_points",
+            divergence_points(model, rho, Kernel::Theodorsen).map(drop),
+        ),
+        ("lag_flutter", lag_flutter(model, rho).map(drop)),
+        ("exact_flutter", exact_flutter(model, rho).map(drop)),
+        (
+            "neutral_points",
+            neutral_points(model, rho, Kernel::Theodorsen).map(drop),
+        ),
+        ("sweep", sweep(model, rho, &[speed], Method::StateSpace).map(drop)),
+        ("sweep, p-k", sweep(model, rho, &[speed], Method::PK).map(drop)),
+    ]
+}
+
+/// The fields of a model are public: one that was altered is refused by every function that takes it.
+#[test]
+fn regress_altered_models_are_refused() {
+    type Alter = fn(&mut AeroelasticModel);
+    let alterations: [Alter; 14] = [
+        |m| m.structure.mass = Mat::identity(2, 2),
+        |m| m.structure.damping = Mat::zeros(3, 2),
+        |m| m.structure.stiffness = Mat::zeros(0, 0),
+        |m| m.structure.mass[(1, 1)] = f64::NAN,
+        |m| m.forces.eta_etadd_nc = Mat::zeros(2, 3),
+        |m| m.forces.eta_etad_nc = Mat::zeros(3, 4),
+        |m| m.forces.eta_etad_c = Mat::zeros(4, 4),
+        |m| m.forces.eta_eta_nc = Mat::zeros(1, 1),
+        |m| m.forces.eta_eta_c = Mat::zeros(3, 0),
+        |m| m.forces.eta_lambda_c = Mat::zeros(3, 4),
+        |m| m.downwash.w_eta = Mat::zeros(4, 3),
+        |m| m.downwash.w_etad = Mat::zeros(5, 2),
+        |m| m.strips.clear(),
+        |m| m.strips.push(m.strips[0]),
+    ];
+    let sound = invented(0, 5, 3, 0.01);
+    for (what, answer) in answers(&sound) {
+        assert_eq!(answer, Ok(()), "{what}");
+    }
+    for (number, alter) in alterations.into_iter().enumerate() {
+        let mut altered = sound.clone();
+        alter(&mut altered);
+        for (what, answer) in answers(&altered) {
+            assert!(
+                matches!(answer, Err(Error::Shape { .. } | Error::NotFinite { .. })),
+                "alteration {number}, {what}: {answer:?}"
+            );
+        }
+    }
+    // Nothing at all fits together; what comes of it may be an error, but no panic.
+    for (n, strips) in [(0, 0), (0, 2), (2, 0)] {
+        let mut empty = sound.clone();
+        let (square, lift, w) = (Mat::zeros(n, n), Mat::zeros(n, strips), Mat::zeros(strips, n));
+        empty.structure = Structure {
+            mass: Mat::identity(n, n),
+            damping: square.clone(),
+            stiffness: Mat::identity(n, n),
+        };
+        empty.strips.truncate(strips);
+        empty.forces = GeneralizedForces {
+            eta_etadd_nc: square.clone(),
+            eta_etad_nc: square.clone(),
+            eta_etad_c: square.clone(),
+            eta_eta_nc: square.clone(),
+            eta_eta_c: square,
+            eta_lambda_c: lift,
+        };
+        empty.downwash = Downwash {
+            w_eta: w.clone(),
+            w_etad: w,
+        };
+        for (what, answer) in answers(&empty) {
+            if !what.starts_with("sweep") && !what.ends_with("flutter") && what != "neutral_points" {
+                assert_eq!(answer, Ok(()), "{n} modes, {strips} strips, {what}");
+            }
+        }
+    }
+}
+
+/// Lags or strips without number would ask for more memory than there is.
+#[test]
+fn regress_orders_without_bound_are_refused() {
+    let mut model = invented(0, 5, 3, 0.01);
+    model.lags = vec![JONES[0]; 4000];
+    for what in ["state_matrix", "compact_state_matrix", "sweep"] {
+        let found = answers(&model).into_iter().find(|(name, _)| *name == what);
+        assert!(
+            matches!(
+                found,
+                Some((
+                    _,
+                    Err(Error::BadOption {
+                        option: "the number of states",
+                        ..
+                    })
+                ))
+            ),
+            "{what}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn regress_shapes_of_two_sizes_do_not_panic() {
+    let uneven = StripShapes {
+        phi: Mat::zeros(3, 2),
+        gamma: Mat::zeros(2, 1),
+    };
+    let found = uneven.at(&[strip(); 3], |s| s.x_ac);
+    assert_eq!((found.nrows(), found.ncols()), (2, 1));
 }

@@ -111,7 +111,7 @@ fn contains_all(values: &[C64], sought: &[C64], tolerance: f64) {
 
 /// Smallest singular value of the harmonic operator over its largest entry.
 fn singularity(model: &AeroelasticModel, rho: f64, p: C64, speed: f64) -> f64 {
-    let f = harmonic_operator(model, rho, p, speed);
+    let f = harmonic_operator(model, rho, p, speed).unwrap();
     let values = f.singular_values().unwrap();
     values.iter().copied().fold(f64::INFINITY, f64::min) / f.norm_max()
 }

@@ -65,7 +65,10 @@ pub(super) fn flexible(model: &Model, trimmed: &Trimmed, cause: Cause) -> Result
     let load = Mat::from_fn(matrix.nrows(), 1, |k, _| {
         pressure * area * chord * matrix[(k, column)]
     });
-    let stiffness = elastic.model.static_stiffness(Flow { rho, speed });
+    let stiffness = elastic
+        .model
+        .static_stiffness(Flow { rho, speed })
+        .map_err(albatross::flight::Error::from)?;
     let eta = solve::solve(stiffness.as_ref(), load.as_ref())?;
     // Rows: forces x, y, z (down), moments x, y, z.
     let loads = &elastic.rigid_rows.eta_eta() * &eta * albatross::numerics::faer::Scale(rho * speed.powi(2));
