@@ -17,8 +17,8 @@ const WIDE_STEP: f64 = 0.12;
 /// Steps are not halved below this.
 const LEAST_STEP: f64 = 1e-3;
 const MOST_STATIONS: usize = 1500;
-/// Changes of side beyond this number are rounding, and to refine them all would take minutes.
-const MOST_BRACKETS: usize = 1000;
+/// Changes of side beyond this number for each mode are rounding, and to refine them all would take minutes.
+const MOST_BRACKETS: usize = 50;
 /// Chords that differ by more make the range of wave numbers too long to be searched.
 const LARGEST_CHORD_RATIO: f64 = 1e6;
 /// Real parts below this share of the modulus are rounding.
@@ -80,11 +80,11 @@ pub(super) fn scan(modal: &ModalOperator, kernel: Kernel<'_>) -> Result<(Vec<f64
             _ => Vec::new(),
         })
         .collect();
-    if brackets.len() > MOST_BRACKETS {
+    if brackets.len() > MOST_BRACKETS * modal.n_elastic() {
         return Err(Error::BadOption {
             option: "the number of wave numbers at which a root changes its side of the imaginary axis",
             value: brackets.len() as f64,
-            expected: "at most 1000: more is rounding; check the units of lift slopes, masses and frequencies",
+            expected: "at most 50 for each mode: more is rounding; check the units of lift slopes, masses and frequencies",
         });
     }
     Ok((at_rest, brackets))
