@@ -30,7 +30,9 @@ impl Freedoms {
     /// # Errors
     /// [`Error::BadElement`] for a number that a grid and a scalar point share.
     pub(crate) fn of(deck: &Deck) -> Result<Self, Error> {
-        if let Some(id) = deck.scalar_points.iter().find(|id| deck.grids.contains_key(id)) {
+        // By the numbers of the grids, not the keys of the map: a deck made by hand may differ in them.
+        let twice = deck.grids.values().find(|g| deck.scalar_points.contains(&g.id));
+        if let Some(id) = twice.map(|g| g.id) {
             return Err(Error::BadElement {
                 card: format!("SPOINT {id}"),
                 problem: "is a GRID of the deck too; give one of them another number".into(),

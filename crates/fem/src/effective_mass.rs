@@ -24,7 +24,7 @@ impl FemModel {
         let rigid = self.rigid_motions(Vector3::from(reference));
         let products: [Vec<f64>; 6] = std::array::from_fn(|j| {
             let column: Vec<f64> = rigid.iter().map(|r| r[j]).collect();
-            self.full_mass.apply(&column)
+            self.full_mass.product(&column)
         });
         let of = |k: usize| {
             let mu = modes.generalized_masses[k];
@@ -36,6 +36,6 @@ impl FemModel {
                 effective: l.map(|l| l * l / mu),
             }
         };
-        (0..modes.len()).map(of).collect()
+        (0..modes.complete()).map(of).collect()
     }
 }

@@ -107,3 +107,17 @@ pub enum Error {
         reason: String,
     },
 }
+
+impl Error {
+    /// Refuses a vector that has another length than the model's.
+    pub(crate) fn refuse_length(found: usize, expected: usize) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::BadOption {
+            option: "the length of the vector",
+            value: format!("{found} where the matrix has the order {expected}"),
+            expected: "one number for each free freedom, in the order of the matrix",
+        })
+    }
+}

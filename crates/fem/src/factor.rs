@@ -185,7 +185,7 @@ impl Factor<'_> {
         }
         let x: Vec<f64> = x.col(0).iter().copied().collect();
         let scaled = || x.iter().zip(&self.scale).map(|(v, s)| v / s);
-        let energy: f64 = a.apply(&x).iter().zip(&x).map(|(p, x)| p * x).sum();
+        let energy: f64 = a.product(&x).iter().zip(&x).map(|(p, x)| p * x).sum();
         let size: f64 = scaled().map(|y| y * y).sum();
         if energy.abs() > NOISE * size {
             return None;

@@ -307,7 +307,7 @@ impl Krylov<'_> {
         if norm >= 1e-6 * theta {
             return true;
         }
-        let kx = self.stiffness.apply(x);
+        let kx = self.stiffness.product(x);
         let strain: f64 = x.iter().zip(&kx).map(|(x, k)| x * k).sum();
         let mass = norm * norm;
         mass > 1e-12 * theta * (strain - self.sigma * mass)

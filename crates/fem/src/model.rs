@@ -257,11 +257,11 @@ impl FemModel {
 
     /// Displacements of all freedoms for those of the free ones.
     ///
-    /// # Panics
-    /// When `free` is shorter than the order of the matrices.
-    #[must_use]
-    pub fn expand(&self, free: &[f64]) -> Vec<f64> {
-        self.constraints.expand(free)
+    /// # Errors
+    /// [`Error::BadOption`] for a vector whose length is not the order of the matrices.
+    pub fn expand(&self, free: &[f64]) -> Result<Vec<f64>, Error> {
+        Error::refuse_length(free.len(), self.constraints.free.len())?;
+        Ok(self.constraints.expand(free))
     }
 
     /// Mass, centre of gravity and inertia, after PARAM,WTMASS. `None` without mass.
@@ -334,9 +334,15 @@ impl FemModel {
         self.mass = Symmetric::new(n, m);
     }
 
+    /// The first of the six freedoms of a grid; a scalar point has only one.
+    fn first_of_grid(&self, id: Id) -> Option<usize> {
+        let point = self.freedoms.point(id).filter(|p| !p.is_scalar)?;
+        Some(point.first)
+    }
+
     /// T^T K T of an element between grids, K turned to the CD systems.
     fn add_pair(&self, pair: &GridPair, k: &mut Triplets) {
-        let at = |id: Id| Some((self.freedoms.point(id)?.first, self.frames.grid(id)?));
+        let at = |id: Id| Some((self.first_of_grid(id)?, self.frames.grid(id)?));
         let Some((a, grid_a)) = at(pair.a) else { return };
         let turn = |block: &Matrix6<f64>, left: Id, right: Id, la, ra| -> Matrix6<f64> {
             let mut turned = *block;
@@ -364,7 +370,7 @@ impl FemModel {
     pub(crate) fn internal_forces(&self, u: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; u.len()];
         let at = |id: Id| {
-            let first = self.freedoms.point(id)?.first;
+            let first = self.first_of_grid(id)?;
             let turn = rotation_blocks(&self.frames.grid(id)?.axes);
             let local = nalgebra::Vector6::from_fn(|i, _| u[first + i]);
             Some((first, turn, turn * local))
@@ -422,7 +428,7 @@ impl FemModel {
         let mut m = Triplets::default();
         let at = |id: Id| {
             Some((
-                self.freedoms.point(id)?.first,
+                self.first_of_grid(id)?,
                 rotation_blocks(&self.frames.grid(id)?.axes),
             ))
         };

@@ -33,6 +33,11 @@ impl<'a> Pencil<'a> {
         Analysis::new(&self.stiffness.combined(1.0, self.mass, 1.0), &self.nodes)
     }
 
+    /// The number of eigenvalues below one, by the negative pivots of K - lambda M.
+    pub(crate) fn count_below(&self, analysis: &Analysis, lambda: f64) -> Result<usize, Error> {
+        analysis.negative_count(&self.stiffness.combined(1.0, self.mass, -lambda))
+    }
+
     /// A shift that is surely large enough to make K - sigma M definite in double precision: a millionth of the
     /// median of k_ii / m_ii.
     pub(crate) fn first_shift(&self) -> Result<f64, Error> {

@@ -156,13 +156,51 @@ impl FemModel {
     /// Modes of a reduced model, with shapes on all freedoms of this one.
     ///
     /// # Errors
+    /// [`Error::BadOption`] for matrices that do not fit each other and this model, or are not finite;
     /// [`Error::EmptyModel`] without mass, [`Error::Factorisation`] when the reduced matrices are not positive
     /// semidefinite.
     pub fn modes_of_reduced(&self, reduced: &ReducedModel, count: usize) -> Result<Modes, Error> {
+        self.refuse_unfit(reduced)?;
         let pairs = dense_modes(&reduced.stiffness, &reduced.mass, count)?;
         let vectors = &reduced.recovery * &pairs.vectors;
         let pairs = Pairs { vectors, ..pairs };
         Ok(self.finish(pairs, ModeScale::Mass, Vec::new(), 0))
+    }
+
+    /// Refuses matrices altered since, or reduced from another model.
+    fn refuse_unfit(&self, reduced: &ReducedModel) -> Result<(), Error> {
+        let ReducedModel {
+            stiffness,
+            mass,
+            recovery,
+            ..
+        } = reduced;
+        let (n, free) = (stiffness.nrows(), self.constraints.free.len());
+        let finite = |m: &Mat<f64>| (0..m.ncols()).all(|j| (0..m.nrows()).all(|i| m[(i, j)].is_finite()));
+        let bad = |value: String| {
+            Err(Error::BadOption {
+                option: "the reduced model",
+                value,
+                expected: "square matrices of one order, with a row of `recovery` for each free freedom of this model, \
+                           all finite: reduce this model",
+            })
+        };
+        for (name, matrix, rows) in [
+            ("stiffness", stiffness, n),
+            ("mass", mass, n),
+            ("recovery", recovery, free),
+        ] {
+            let (found_rows, found_columns) = (matrix.nrows(), matrix.ncols());
+            if (found_rows, found_columns) != (rows, n) {
+                return bad(format!(
+                    "one whose `{name}` has {found_rows} rows and {found_columns} columns instead of {rows} and {n}"
+                ));
+            }
+            if !finite(matrix) {
+                return bad(format!("one whose `{name}` has a number that is not finite"));
+            }
+        }
+        Ok(())
     }
 
     fn split(&self, set: &[(Id, Components)]) -> Result<Split, Error> {

@@ -2,18 +2,53 @@
 
 use albatross_numerics::Mat;
 
+use crate::error::Error;
+
+/// Number of contributions from which on repeated ones are summed before all are there: a mass at the reference grid of
+/// an RBE3 gives many to each pair of the averaged grids.
+const MANY: usize = 1 << 22;
+
 /// Contributions to a symmetric matrix, the lower triangle only. Repeated entries add.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Triplets {
     entries: Vec<(u32, u32, f64)>,
+    /// Number at which repeated entries are summed: twice what the last sum left.
+    limit: usize,
+}
+
+impl Default for Triplets {
+    fn default() -> Self {
+        Self {
+            entries: Vec::new(),
+            limit: MANY,
+        }
+    }
 }
 
 impl Triplets {
     /// Adds to entry (row, column) if it is in the lower triangle.
     pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
         if row >= column && value != 0.0 {
+            if self.entries.len() >= self.limit {
+                self.sum_repeated();
+            }
             self.entries.push((row as u32, column as u32, value));
         }
+    }
+
+    /// One entry for each place. The sort is stable, so that a place sums in the order in which it was added to, and
+    /// the matrix is the same to the bit whenever this happens.
+    fn sum_repeated(&mut self) {
+        self.entries.sort_by_key(|e| (e.1, e.0));
+        self.entries.dedup_by(|next, sum| {
+            let same = (next.0, next.1) == (sum.0, sum.1);
+            if same {
+                sum.2 += next.2;
+            }
+            same
+        });
+        self.entries.shrink_to_fit();
+        self.limit = self.limit.max(2 * self.entries.len());
     }
 }
 
@@ -28,10 +63,15 @@ pub struct Symmetric {
 
 impl Symmetric {
     /// Sums triplets to a matrix of order n. A counting sort by row, then by column, leaves columns in order.
-    pub(crate) fn new(n: usize, triplets: Triplets) -> Self {
+    pub(crate) fn new(n: usize, mut triplets: Triplets) -> Self {
+        if triplets.entries.len() >= MANY {
+            triplets.sum_repeated();
+        }
         let mut entries = triplets.entries;
+        entries.reserve_exact(n);
         entries.extend((0..n as u32).map(|i| (i, i, 0.0)));
         let by_row = counting_sort(n, &entries, |e| e.0 as usize);
+        drop(entries);
         let sorted = counting_sort(n, &by_row, |e| e.1 as usize);
         drop(by_row);
         let mut matrix = Self {
@@ -94,10 +134,15 @@ impl Symmetric {
 
     /// y = A x.
     ///
-    /// # Panics
-    /// When x is shorter than the order.
-    #[must_use]
-    pub fn apply(&self, x: &[f64]) -> Vec<f64> {
+    /// # Errors
+    /// [`Error::BadOption`] for a vector whose length is not the order.
+    pub fn apply(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        Error::refuse_length(x.len(), self.order())?;
+        Ok(self.product(x))
+    }
+
+    /// A x of a vector that is known to have the length of the order.
+    pub(crate) fn product(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.order()];
         self.add_product(x, &mut y);
         y
@@ -213,9 +258,26 @@ mod tests {
             entries,
             [(0, 0, 4.0), (2, 0, 3.0), (1, 1, 0.0), (2, 1, -1.0), (2, 2, 0.0)]
         );
-        assert_eq!(a.apply(&[1.0, 2.0, 3.0]), [13.0, -3.0, 1.0]);
+        assert_eq!(a.product(&[1.0, 2.0, 3.0]), [13.0, -3.0, 1.0]);
         assert_eq!(a.diagonal(), [4.0, 0.0, 0.0]);
         let b = a.combined(2.0, &a, -1.0);
         assert_eq!(b.entries().collect::<Vec<_>>(), entries);
+    }
+
+    /// Many contributions to few places take the room of the places, and sum to the same bits.
+    #[test]
+    fn regress_repeated_entries_take_no_room() {
+        let (mut all, mut few) = (Triplets::default(), Triplets::default());
+        few.limit = 50;
+        let mut longest = 0;
+        for k in 0..5000_usize {
+            let value = (k as f64 * 0.7).sin() * 10f64.powi((k % 9) as i32);
+            for t in [&mut all, &mut few] {
+                t.add(k * 7 % 5, k * 3 % 7, value);
+            }
+            longest = longest.max(few.entries.len());
+        }
+        assert_eq!(longest, 50);
+        assert_eq!(Symmetric::new(7, few), Symmetric::new(7, all));
     }
 }

@@ -84,7 +84,7 @@ impl FemModel {
         factor.solve_in_place(&mut u);
         // One step of refinement gains the digits that the condition takes.
         let free: Vec<f64> = u.col(0).iter().copied().collect();
-        let product = self.stiffness.apply(&free);
+        let product = self.stiffness.product(&free);
         let mut correction = Mat::from_fn(right.len(), 1, |i, _| right[i] - product[i]);
         factor.solve_in_place(&mut correction);
         u += &correction;
@@ -134,7 +134,7 @@ impl FemModel {
                 .iter()
                 .map(|r| (0..3).map(|k| r[k] * acceleration[k]).sum())
                 .collect();
-            for (p, f) in p.iter_mut().zip(self.full_mass.apply(&field)) {
+            for (p, f) in p.iter_mut().zip(self.full_mass.product(&field)) {
                 *p += f;
             }
         }
