@@ -220,7 +220,7 @@ fn time_history(format: Format, name: &str, history: &TimeHistory) -> Result<Vec
         Format::Csv => Ok(tables::history(name, history)?.to_csv().into_bytes()),
         #[cfg(feature = "parquet")]
         Format::Parquet => Ok(export::parquet::write(history)?),
-        _ => binary(format, &export::history(history)),
+        _ => binary(format, &export::history(history)?),
     }
 }
 

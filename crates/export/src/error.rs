@@ -53,3 +53,15 @@ pub enum Error {
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// Refuses a number of parts that differs from what it goes with.
+pub(crate) fn fit(what: &str, found: usize, expected: usize) -> Result<()> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::Mismatch {
+        what: what.to_owned(),
+        found,
+        expected,
+    })
+}

@@ -1,6 +1,7 @@
 //! The shape of an aircraft in points and cells, with its modes: what a viewer draws.
 
-use crate::{Error, Result};
+use crate::Result;
+use crate::error::fit;
 use albatross_modal::ModalBasis;
 use albatross_nastran::deck::{Deck, Id};
 use albatross_strip::slopes::StripRecord;
@@ -99,26 +100,23 @@ impl Mesh {
     /// aerodynamics has it, `phi - (x - x_lra) gamma`. Where neighbours of a surface meet, both take the mean.
     ///
     /// # Errors
-    /// [`Error::Mismatch`] unless there are as many records and shapes as strips, and as many shapes as modes.
+    /// [`Error::Mismatch`](crate::Error::Mismatch) unless there are as many records and shapes as strips, as many shapes
+    /// as modes, and as many displacements of each mode as points.
     pub fn add_strips(
         &mut self,
         records: &[StripRecord],
         strips: &[Strip],
         shapes: &StripShapes,
     ) -> Result<()> {
-        let fit = |what: &str, found: usize, expected: usize| {
-            if found == expected {
-                return Ok(());
-            }
-            Err(Error::Mismatch {
-                what: what.to_owned(),
-                found,
-                expected,
-            })
-        };
         fit("records of strips", records.len(), strips.len())?;
         fit("strips with shapes", shapes.n_strips(), strips.len())?;
         fit("shapes on the strips", shapes.n_shapes(), self.modes.len())?;
+        fit("strips with rotations", shapes.gamma.nrows(), strips.len())?;
+        fit("rotations on the strips", shapes.gamma.ncols(), self.modes.len())?;
+        for mode in &self.modes {
+            let what = format!("displacements of mode {}", mode.rank);
+            fit(&what, mode.displacement.len(), self.points.len())?;
+        }
         for (j, (record, strip)) in records.iter().zip(strips).enumerate() {
             let first = self.points.len();
             let (sin, cos) = strip.dihedral_rad.sin_cos();

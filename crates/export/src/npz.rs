@@ -13,22 +13,23 @@ use crate::zip;
 /// [`crate::Error::TooLarge`] beyond 4 GiB.
 pub fn write(record: &Record) -> Result<Vec<u8>> {
     let mut files = Vec::new();
-    arrays("", record, &mut files);
+    arrays("", record, &mut files)?;
     zip::archive(&files)
 }
 
-fn arrays(prefix: &str, record: &Record, files: &mut Vec<(String, Vec<u8>)>) {
+fn arrays(prefix: &str, record: &Record, files: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
     for (name, value) in &record.fields {
         let name = format!("{prefix}{name}");
         match value {
-            Value::Group(group) => arrays(&format!("{name}."), group, files),
-            value => files.push((format!("{name}.npy"), array(value))),
+            Value::Group(group) => arrays(&format!("{name}."), group, files)?,
+            value => files.push((format!("{name}.npy"), array(&name, value)?)),
         }
     }
+    Ok(())
 }
 
-fn array(value: &Value) -> Vec<u8> {
-    match value {
+fn array(name: &str, value: &Value) -> Result<Vec<u8>> {
+    Ok(match value {
         Value::Scalar(x) => npy("<f8", "()", x.to_le_bytes()),
         Value::Column(list) => npy(
             "<f8",
@@ -47,14 +48,14 @@ fn array(value: &Value) -> Vec<u8> {
                 by_columns.flat_map(f64::to_le_bytes),
             )
         }
-        Value::Text(text) => texts("()", &[text.as_str()]),
+        Value::Text(text) => texts(name, "()", &[text.as_str()])?,
         Value::Texts(list) => {
             let list: Vec<&str> = list.iter().map(String::as_str).collect();
-            texts(&row_of(list.len()), &list)
+            texts(name, &row_of(list.len()), &list)?
         }
         // Taken apart by [`arrays`].
         Value::Group(_) => Vec::new(),
-    }
+    })
 }
 
 fn row_of(length: usize) -> String {
@@ -62,13 +63,21 @@ fn row_of(length: usize) -> String {
 }
 
 /// Texts in UTF-32, zeros to the length of the longest.
-fn texts(shape: &str, list: &[&str]) -> Vec<u8> {
+fn texts(name: &str, shape: &str, list: &[&str]) -> Result<Vec<u8>> {
     let width = list.iter().map(|t| t.chars().count()).max().unwrap_or(0).max(1);
+    // One long text among many makes an array much larger than the texts are.
+    let (room, most) = (
+        list.len().saturating_mul(width).saturating_mul(4),
+        u32::MAX as usize,
+    );
+    if room > most {
+        return Err(zip::too_large(name, room, most));
+    }
     let padded = list.iter().flat_map(|text| {
         let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
         codes.take(width).flat_map(u32::to_le_bytes)
     });
-    npy(&format!("<U{width}"), shape, padded)
+    Ok(npy(&format!("<U{width}"), shape, padded))
 }
 
 /// An array stored by columns.

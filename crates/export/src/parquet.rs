@@ -1,6 +1,6 @@
 //! Time histories as Parquet, read by pandas, Polars, DuckDB, MATLAB.
 
-use crate::{Error, Result};
+use crate::Result;
 use albatross_flight::TimeHistory;
 use parquet::basic::{Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
@@ -12,8 +12,10 @@ use std::sync::Arc;
 /// One column of doubles a channel, named as in CSV: `t [s]`, `elevator [rad]`. Uncompressed.
 ///
 /// # Errors
-/// [`Error::Mismatch`] if a channel has more or fewer samples than there are times; [`Error::Parquet`].
+/// [`Error::Mismatch`](crate::Error::Mismatch) if a channel has more or fewer samples than there are times;
+/// [`Error::Parquet`](crate::Error::Parquet).
 pub fn write(history: &TimeHistory) -> Result<Vec<u8>> {
+    crate::history::refuse_ragged(history)?;
     let names = history
         .channels
         .iter()
@@ -23,20 +25,6 @@ pub fn write(history: &TimeHistory) -> Result<Vec<u8>> {
         .chain(&history.series)
         .map(Vec::as_slice)
         .collect();
-    let fit = |what: &str, found: usize, expected: usize| {
-        if found == expected {
-            return Ok(());
-        }
-        Err(Error::Mismatch {
-            what: what.to_owned(),
-            found,
-            expected,
-        })
-    };
-    fit("series of the history", columns.len(), names.len())?;
-    for (name, column) in names.iter().zip(&columns) {
-        fit(&format!("samples of `{name}`"), column.len(), history.time.len())?;
-    }
     let field = |name: &String| {
         let field =
             Type::primitive_type_builder(name, Physical::DOUBLE).with_repetition(Repetition::REQUIRED);

@@ -61,7 +61,7 @@ fn count(what: &str, found: usize) -> Result<[u8; 2]> {
     Ok(value.to_le_bytes())
 }
 
-fn too_large(what: &str, found: usize, most: usize) -> Error {
+pub(crate) fn too_large(what: &str, found: usize, most: usize) -> Error {
     Error::TooLarge {
         what: what.to_owned(),
         format: FORMAT,

@@ -224,7 +224,7 @@ fn val_names_of_exports() {
     };
     let mut written = names(&export::state_space(&system, Some(&about)).unwrap());
     written.extend(names(&transfer.record()));
-    written.extend(names(&export::history(&history)));
+    written.extend(names(&export::history(&history).unwrap()));
     let value = serde_json::to_value(&transfer).unwrap();
     written.extend(keys(&value));
     written.extend(keys(&value["transfer_function"]));

@@ -169,6 +169,33 @@ fn val_strips_must_fit_the_modes() {
     assert!(mesh.add_strips(&records[..1], &strips, &two_modes).is_err());
 }
 
+#[test]
+fn regress_parts_that_do_not_fit_are_refused() {
+    type Case = (&'static str, fn(&mut Mesh, &mut StripShapes));
+    let (deck, _) = bdf::parse(DECK.as_bytes(), "wing.bdf");
+    let cases: [Case; 4] = [
+        ("strips with rotations: found 1, expected 2", |_, s| {
+            s.gamma.truncate(1, 1)
+        }),
+        ("rotations on the strips: found 0, expected 1", |_, s| {
+            s.gamma.truncate(2, 0)
+        }),
+        ("displacements of mode 1: found 2, expected 3", |m, _| {
+            m.modes[0].displacement.truncate(2)
+        }),
+        ("displacements of mode 1: found 3, expected 1", |m, _| {
+            m.points.truncate(1)
+        }),
+    ];
+    for (expected, alter) in cases {
+        let mut mesh = Mesh::of_structure(&basis(), &deck);
+        let (records, strips, mut shapes) = strips();
+        alter(&mut mesh, &mut shapes);
+        let refused = mesh.add_strips(&records, &strips, &shapes).unwrap_err();
+        assert_eq!(refused.to_string(), expected);
+    }
+}
+
 /// Numbers of a data array.
 fn array(text: &str, name: &str) -> Vec<f64> {
     let start = text

@@ -1,7 +1,9 @@
 //! NumPy's archives by a reader of our own.
 
 use crate::support::{any_record, le_doubles, le_u16, le_u32, same_bits, system};
-use albatross_export::{Record, Value, npz, state_space};
+use albatross_export::{Error, Record, Value, history, npz, state_space};
+use albatross_flight::TimeHistory;
+use albatross_lti::Signal;
 use proptest::prelude::*;
 
 /// Names and contents of the files of an archive, by its directory, each checked against its own header and sum.
@@ -123,4 +125,46 @@ fn val_a_system_reads_back_equal() {
     assert!(reads_back(&state_space(&system(), None).unwrap()));
     // The check value of CRC-32.
     assert_eq!(crc(b"123456789"), 0xcbf4_3926);
+}
+
+/// A text of a million letters among 1,100 short ones: 4.6 GB once all are as long.
+#[test]
+fn regress_texts_that_grow_beyond_the_format_are_refused() {
+    let mut texts = vec![String::new(); 1100];
+    texts[7] = "x".repeat(1 << 20);
+    let record = Record::new().with("Names", Value::Texts(texts));
+    let refused = npz::write(&record).unwrap_err();
+    assert!(
+        matches!(&refused, Error::TooLarge { what, found, .. } if what == "Names" && *found == 1100 << 22),
+        "{refused}"
+    );
+}
+
+#[test]
+fn regress_ragged_histories_are_refused() {
+    type Case = (&'static str, fn(&mut TimeHistory));
+    let whole = TimeHistory {
+        time: vec![0.0, 0.1],
+        channels: vec![Signal::new("elevator", "rad"), Signal::new("n_z", "-")],
+        series: vec![vec![0.0; 2]; 2],
+        final_state: Vec::new(),
+        evaluations: 0,
+    };
+    assert!(history(&whole).is_ok());
+    let cases: [Case; 3] = [
+        ("samples of `n_z [-]`: found 1, expected 2", |h| {
+            h.series[1].truncate(1)
+        }),
+        ("samples of `elevator [rad]`: found 3, expected 2", |h| {
+            h.series[0].push(1.0)
+        }),
+        ("series of the history: found 1, expected 2", |h| {
+            h.series.truncate(1)
+        }),
+    ];
+    for (expected, alter) in cases {
+        let mut ragged = whole.clone();
+        alter(&mut ragged);
+        assert_eq!(history(&ragged).unwrap_err().to_string(), expected);
+    }
 }
