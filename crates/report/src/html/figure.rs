@@ -1,7 +1,7 @@
 //! Plots as plotly.js takes them: one figure for each stack of panels, in the look of the SVG.
 
 use super::escape::marked;
-use crate::plot::axis::{Axis, Scale};
+use crate::plot::axis::{Axis, LARGEST, Scale};
 use crate::plot::curve::{Point, extremes, simplify};
 use crate::plot::palette::{Dash, Marker, Style};
 use crate::plot::panel::{Guide, Panel, Series};
@@ -149,10 +149,15 @@ fn label(html: &str, y: f64) -> Value {
     })
 }
 
-/// Least and greatest finite value.
+/// Whether a value has a place on a drawing.
+fn has_place(value: f64) -> bool {
+    value.abs() <= LARGEST
+}
+
+/// Least and greatest value that has a place.
 fn extent<'a>(lists: impl Iterator<Item = &'a Vec<f64>>) -> Option<(f64, f64)> {
-    let finite = lists.flatten().copied().filter(|v| v.is_finite());
-    finite.fold(None, |range, v| match range {
+    let placed = lists.flatten().copied().filter(|v| has_place(*v));
+    placed.fold(None, |range, v| match range {
         None => Some((v, v)),
         Some((low, high)) => Some((low.min(v), high.max(v))),
     })
@@ -188,7 +193,8 @@ fn axis(axis: &Axis, horizontal: bool, extent: Option<(f64, f64)>) -> Map<String
         }
         Scale::Degrees => {
             let step = ticks::degrees(low.min(high - 90.0), high.max(low + 90.0), 5).step;
-            if let Some(step) = step {
+            // Values so large that 90 deg are lost in them have no step.
+            if let Some(step) = step.filter(|step| step.value().is_normal()) {
                 out.insert("dtick".into(), json!(step.value()));
                 out.insert("tick0".into(), json!(0));
             }
@@ -290,7 +296,7 @@ fn points(series: &Series) -> (Vec<f64>, Vec<f64>) {
     let all: Vec<Point> = series.points().collect();
     let line_alone = series.style.line.is_some() && series.style.marker.is_none() && series.labels.is_empty();
     // A gap would be lost.
-    let whole = all.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+    let whole = all.iter().all(|(x, y)| has_place(*x) && has_place(*y));
     let kept = match (x_range, y_range) {
         (Some(x), Some(y)) if line_alone && whole && x.1 > x.0 && all.len() > LONG => thinned(&all, x, y),
         _ => all,
@@ -555,6 +561,23 @@ mod tests {
         assert_eq!(rounding(Some((5.0, 5.0)))(5.0), 5.0);
         assert!(fine(f64::NAN).is_nan());
         assert_eq!(rounding(Some((0.0, 1e9)))(123_456_789.0), 123_460_000.0);
+    }
+
+    /// A constant phase in which 90 deg are lost, and one beyond what is drawn.
+    #[test]
+    fn regress_huge_values_have_a_figure() {
+        for value in [1e200, -1e300, 1e305, f64::MAX] {
+            let mut panel = Panel::new("phase", "deg");
+            panel.y.scale = Scale::Degrees;
+            let series = Series::new("a", Style::model(0), [0.0, 1.0], [value; 2]);
+            let plot = LinePlot::new("P", Axis::new("t", "s")).with(panel.with(series));
+            let figures = plots(&plot.sheet().unwrap());
+            let step = &figures[0]["layout"]["yaxis"]["dtick"];
+            assert!(
+                step.is_null() || step.as_f64().unwrap() > 0.0,
+                "{value:e}: {step}"
+            );
+        }
     }
 
     #[test]

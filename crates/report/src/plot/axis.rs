@@ -4,7 +4,7 @@ use super::ticks::{self, Ticks, power_label};
 use crate::error::ReportError;
 
 /// Values beyond this have no place on a drawing and are treated as gaps.
-const LARGEST: f64 = 1e300;
+pub(crate) const LARGEST: f64 = 1e300;
 
 /// A range shorter than this part of its values is not resolved by doubles and drawn as a constant.
 const UNRESOLVED: f64 = 1e-10;

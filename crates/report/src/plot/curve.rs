@@ -9,6 +9,10 @@ use super::svg::coordinate;
 /// A point of the drawing in pixels.
 pub(crate) type Point = (f64, f64);
 
+/// Distances measured for each point of a line before it is split in the middle rather than where it is farthest off.
+/// Curves need some tens; a diverging oscillation, which splits off one point at a time, would need half its points.
+const PATIENCE: usize = 200;
+
 /// Distance in pixels by which a simplified curve may leave the true one.
 const TOLERANCE: f64 = 0.05;
 
@@ -159,6 +163,7 @@ pub(crate) fn simplify(line: &[Point]) -> Vec<Point> {
     }
     let mut keep = vec![false; line.len()];
     let mut open = vec![(0, line.len() - 1)];
+    let mut patience = PATIENCE.saturating_mul(line.len());
     while let Some((first, last)) = open.pop() {
         for end in [first, last] {
             if let Some(mark) = keep.get_mut(end) {
@@ -177,6 +182,8 @@ pub(crate) fn simplify(line: &[Point]) -> Vec<Point> {
         if let Some((index, away)) = farthest
             && away > TOLERANCE
         {
+            patience = patience.saturating_sub(inner.len());
+            let index = if patience > 0 { index } else { first.midpoint(last) };
             open.push((first, index));
             open.push((index, last));
         }
@@ -303,6 +310,17 @@ mod tests {
             outlines[1],
             [(40.0, 40.0), (50.0, 40.0), (50.0, 60.0), (40.0, 60.0)]
         );
+    }
+
+    /// Of a growing oscillation the last point is always the farthest off: 2e10 distances, if it were split there.
+    #[test]
+    fn regress_growing_oscillations_are_simplified_in_time() {
+        let line: Vec<Point> = (0..200_000)
+            .map(|i| (0.0, f64::from(i) * if i % 2 == 0 { 1.0 } else { -1.0 }))
+            .collect();
+        let start = std::time::Instant::now();
+        assert_eq!(simplify(&line), line);
+        assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
     }
 
     proptest! {

@@ -63,7 +63,8 @@ pub(crate) struct Ticks {
 
 /// Steps of 1, 2 and 5 times a power of ten.
 fn decimal_steps(span: f64, most: usize) -> impl Iterator<Item = Step> {
-    let first = (span / most as f64).log10().floor() as i32 - 1;
+    // Beyond the exponents of doubles there is nothing to step through: a span of nothing, or more than doubles hold.
+    let first = (span / most as f64).log10().floor().clamp(-400.0, 400.0) as i32 - 1;
     (first..first + 6).flat_map(|exponent| [1, 2, 5].map(|mantissa| Step { mantissa, exponent }))
 }
 
@@ -343,6 +344,19 @@ mod tests {
         assert_eq!(labels(&logarithmic(0.3, 6.0, 4)), ["0.5", "1", "2", "5"]);
         assert_eq!(labels(&logarithmic(2.1, 2.9, 5)), ["2.2", "2.4", "2.6", "2.8"]);
         assert_eq!(logarithmic(1e-20, 1e20, 6).major.len(), 6);
+    }
+
+    #[test]
+    fn regress_spans_beyond_doubles_end() {
+        for (low, high) in [
+            (0.0, 0.0),
+            (1e300, 1e300),
+            (-f64::MAX, f64::MAX),
+            (5e-324, 1e-323),
+        ] {
+            assert!(linear(low, high, 5).major.len() <= 5);
+            assert!(degrees(low, high, 5).major.len() <= 5);
+        }
     }
 
     /// An interval anywhere on the number line, no shorter than doubles resolve.

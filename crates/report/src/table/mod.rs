@@ -354,9 +354,11 @@ fn display_width(text: &str) -> usize {
         .sum()
 }
 
-/// Pads with spaces on the left or right to a display width.
+/// Pads with spaces on the left or right to a display width, but to no more than columns that anybody lines up: one very
+/// long cell would else be paid for in every row.
 fn pad(text: &str, width: usize, right_aligned: bool) -> String {
-    let fill = " ".repeat(width.saturating_sub(display_width(text)));
+    const WIDEST: usize = 1000;
+    let fill = " ".repeat(width.min(WIDEST).saturating_sub(display_width(text)));
     if right_aligned {
         format!("{fill}{text}")
     } else {
@@ -412,6 +414,20 @@ mod tests {
             (mark(0), mark(25), mark(26), mark(52)),
             ("a".into(), "z".into(), "aa".into(), "ba".into())
         );
+    }
+
+    #[test]
+    fn regress_one_long_cell_does_not_widen_all() {
+        let mut table = Table::new("T", [Column::text("a"), Column::text("b")]);
+        let long = "x".repeat(200_000);
+        table.push([long.as_str(), "1"].map(Cell::from)).unwrap();
+        for _ in 0..500 {
+            table.push(["y", "2"].map(Cell::from)).unwrap();
+        }
+        for text in [table.to_text(), table.to_markdown()] {
+            assert!(text.contains(&long) && text.len() < 2_000_000, "{}", text.len());
+        }
+        assert_eq!(pad("ab", 5, true), "   ab");
     }
 
     #[test]
