@@ -47,7 +47,7 @@ pub enum ReportError {
 
     /// Limits prescribed for an axis do not span an interval on its scale.
     #[error(
-        "axis `{axis}`: limits {low:?} to {high:?} do not span an interval; \
+        "axis `{axis}`: limits {low} to {high} do not span an interval; \
          they must be finite and increasing, and positive on a logarithmic axis"
     )]
     AxisLimits {
@@ -60,9 +60,7 @@ pub enum ReportError {
     },
 
     /// A size that leaves no room for the plot.
-    #[error(
-        "plot `{plot}`: {what} of {value:?} px; at least {least:?} px and at most {most:?} px can be drawn"
-    )]
+    #[error("plot `{plot}`: {what} of {value} px; at least {least} px and at most {most} px can be drawn")]
     Size {
         /// Title of the plot.
         plot: String,
