@@ -1,7 +1,7 @@
 //! Decimation: a preparation on request, for records sampled much faster than needed and for methods that suffer from it
 //! (discrete-time models).
 //!
-//! [`crate::estimate`] works at the rate of its data and needs none. Decimated data are approximate: the held or linear input of the long interval attenuates by sinc^2(f dt), 3 % at a tenth of the new rate, 12 % at a fifth.
+//! [`crate::estimate()`] works at the rate of its data and needs none. Decimated data are approximate: the held or linear input of the long interval attenuates by sinc^2(f dt), 3 % at a tenth of the new rate, 12 % at a fifth.
 
 use std::f64::consts::PI;
 
