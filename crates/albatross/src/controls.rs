@@ -11,7 +11,7 @@ use albatross_avl::geometry::{Geometry, Surface};
 use albatross_flight::aerodynamics::RigidAerodynamics;
 use albatross_numerics::Mat;
 use albatross_strip::Strip;
-use albatross_strip::quasi_steady::{ReferenceShape, StripLoads, flap_effectiveness};
+use albatross_strip::quasi_steady::{ReferenceDimensions, StripLoads, flap_effectiveness};
 use albatross_strip::slopes::{StripRecord, base_name};
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ pub fn control_loads(
     geometry: &Geometry,
     controls: &[String],
     rigid: &RigidAerodynamics,
-    reference: &ReferenceShape,
+    reference: &ReferenceDimensions,
     records: &[StripRecord],
     strips: &[Strip],
     cg: [f64; 3],

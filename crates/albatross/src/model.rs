@@ -15,7 +15,7 @@ use albatross_numerics::{Mat, solve};
 use albatross_strip::forces::{generalized_forces, generalized_forces_between};
 use albatross_strip::kernels::JONES;
 use albatross_strip::quasi_steady::{
-    AnalyticLift, ReferenceShape, StripLoads, analytic_lift, rigid_to_elastic,
+    AnalyticLift, ReferenceDimensions, StripLoads, analytic_lift, rigid_to_elastic,
 };
 use albatross_strip::{AeroelasticModel, StripShapes, StripTheory, Structure};
 
@@ -189,7 +189,7 @@ fn assemble(
         drag: case.aerodynamics.drag,
     };
     let (mut rigid, controls, avl_reference) = from_avl(&inputs.derivatives, &avl_options)?;
-    let reference = case.reference.map_or(avl_reference, |r| ReferenceShape {
+    let reference = case.reference.map_or(avl_reference, |r| ReferenceDimensions {
         area: r.area,
         chord: r.chord,
         span: r.span,

@@ -4,7 +4,7 @@ use albatross_nastran::Deck;
 use albatross_nastran::GridPointWeight;
 use albatross_nastran::deck::{Id, ScalarMassValue};
 use albatross_nastran::frames::Frames;
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 use nalgebra::{Matrix6, Vector3};
 use std::collections::BTreeSet;
 
@@ -640,7 +640,7 @@ fn scalar_masses(context: &Context<'_>, freedoms: &Freedoms) -> Result<Vec<Scala
         if !value.is_finite() {
             return Err(Error::BadMass {
                 card: context.card(name, id),
-                problem: format!("its mass is {}; expected a finite number", Figure(value)),
+                problem: format!("its mass is {}; expected a finite number", ShortNumber(value)),
             });
         }
         masses.push(ScalarPair { ends, value });

@@ -6,7 +6,7 @@
 //! Equations: THEORY (18).
 
 use crate::scalar::Scalar;
-use albatross_strip::quasi_steady::ReferenceShape;
+use albatross_strip::quasi_steady::ReferenceDimensions;
 
 /// A coefficient linear in the aircraft's variables.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
@@ -92,7 +92,7 @@ impl RigidAerodynamics {
         &self,
         variables: &AirVariables<T>,
         controls: &[T],
-        reference: &ReferenceShape,
+        reference: &ReferenceDimensions,
     ) -> BodyLoads<T> {
         let lift = self.lift.at(variables, controls);
         let drag = match &self.drag {

@@ -4,7 +4,7 @@ use crate::Error;
 use crate::aerodynamics::RigidAerodynamics;
 use crate::sensor::Sensor;
 use albatross_numerics::Mat;
-use albatross_strip::quasi_steady::ReferenceShape;
+use albatross_strip::quasi_steady::ReferenceDimensions;
 use albatross_strip::{AeroelasticModel, GeneralizedForces};
 
 /// Everything that stays constant while the aircraft flies. Body axes: x forward, y right, z down, origin at the
@@ -18,7 +18,7 @@ pub struct Aircraft {
     /// Acceleration of gravity \[m/s²\].
     pub gravity: f64,
     /// Reference area, chord and span.
-    pub reference: ReferenceShape,
+    pub reference: ReferenceDimensions,
     /// Names of the controls, in the order of every array of controls.
     pub controls: Vec<String>,
     /// Coefficients of the rigid aircraft about the centre of gravity.

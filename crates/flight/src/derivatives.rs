@@ -14,7 +14,7 @@
 use crate::Error;
 use crate::aerodynamics::{Coefficient, Drag, RigidAerodynamics};
 use albatross_avl::results::{AxisOrientation, StabilityColumn, StabilityDerivatives};
-use albatross_strip::quasi_steady::ReferenceShape;
+use albatross_strip::quasi_steady::ReferenceDimensions;
 
 /// Which drag law to make of AVL's output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -50,7 +50,7 @@ pub struct AvlOptions {
 pub fn from_avl(
     file: &StabilityDerivatives,
     options: &AvlOptions,
-) -> Result<(RigidAerodynamics, Vec<String>, ReferenceShape), Error> {
+) -> Result<(RigidAerodynamics, Vec<String>, ReferenceDimensions), Error> {
     let run = &file.run;
     let refuse = |what: &str, cure: &str| {
         Err(Error::Derivatives {
@@ -64,7 +64,7 @@ pub fn from_avl(
             "switch to standard axes (OPER, then O, then R) and write the .st file again",
         );
     }
-    let reference = ReferenceShape {
+    let reference = ReferenceDimensions {
         area: run.reference.s_ref,
         chord: run.reference.c_ref,
         span: run.reference.b_ref,
@@ -160,7 +160,7 @@ impl<'a> RunPoint<'a> {
 ///
 /// Forces act at the old point: `Cm += CL x/c`, `Cn += CY x/b`, `Cl -= CY z/b` (body axes); drag's arm is neglected.
 /// Rates about the new point move the old one: incidence `-q x/V`, sideslip `(r x - p z)/V`.
-fn move_moments(rigid: &mut RigidAerodynamics, x: f64, z: f64, reference: &ReferenceShape) {
+fn move_moments(rigid: &mut RigidAerodynamics, x: f64, z: f64, reference: &ReferenceDimensions) {
     if x == 0.0 && z == 0.0 {
         return;
     }
@@ -339,7 +339,7 @@ mod tests {
             &mut rigid,
             0.3,
             0.0,
-            &ReferenceShape {
+            &ReferenceDimensions {
                 area: 1.0,
                 chord: 2.0,
                 span: 9.0,

@@ -1,13 +1,13 @@
 //! What can go wrong.
 
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of the flight mechanics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A quantity that the equations cannot use.
-    #[error("{quantity} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{quantity} is {value}, expected {expected}", value = ShortNumber(*value))]
     BadQuantity {
         /// The quantity.
         quantity: &'static str,
@@ -91,7 +91,7 @@ pub enum Error {
     /// The simulation left the finite numbers.
     #[error(
         "the simulation became non-finite at t = {time:.6} s in state `{state}`; reduce the step of {dt} s or the \
-         input, or look for an instability in the mode table", dt = Figure(*dt))]
+         input, or look for an instability in the mode table", dt = ShortNumber(*dt))]
     Diverged {
         /// Time \[s\].
         time: f64,
@@ -101,7 +101,7 @@ pub enum Error {
         dt: f64,
     },
     /// An input signal is unusable.
-    #[error("input signal: {quantity} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("input signal: {quantity} is {value}, expected {expected}", value = ShortNumber(*value))]
     BadSignal {
         /// The quantity.
         quantity: &'static str,

@@ -43,7 +43,7 @@
 //! ```
 //! # use albatross_flight::aerodynamics::{Coefficient, Drag, RigidAerodynamics};
 //! # use albatross_flight::{Aircraft, Engine};
-//! # use albatross_strip::quasi_steady::ReferenceShape;
+//! # use albatross_strip::quasi_steady::ReferenceDimensions;
 //! use albatross_flight::{FlightPoint, ModelOptions, Quantity, Sensor, linearize, trim};
 //! # let c = |zero, alpha, q_hat, elevator| Coefficient { zero, alpha, q_hat, controls: vec![elevator], ..Default::default() };
 //! # let side = Coefficient { controls: vec![0.0], ..Default::default() };
@@ -51,7 +51,7 @@
 //! #     mass: 81_000.0,
 //! #     inertia: [[1.7e6, 0.0, 0.0], [0.0, 6.0e6, 0.0], [0.0, 0.0, 7.4e6]],
 //! #     gravity: 9.80665,
-//! #     reference: ReferenceShape { area: 130.1, chord: 3.35, span: 45.0 },
+//! #     reference: ReferenceDimensions { area: 130.1, chord: 3.35, span: 45.0 },
 //! #     controls: vec!["elevator".into()],
 //! #     rigid: RigidAerodynamics {
 //! #         lift: c(0.4, 7.3, 18.0, 0.7),

@@ -1,6 +1,6 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -111,7 +111,7 @@ pub enum Error {
         reason: &'static str,
     },
     /// A number lies outside the range accepted.
-    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{what} is {value}, expected {expected}", value = ShortNumber(*value))]
     Domain {
         /// The number.
         what: &'static str,

@@ -1,7 +1,7 @@
 //! What can go wrong, with the numbers needed to act on it.
 
 use albatross_nastran::deck::Id;
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -79,7 +79,7 @@ pub enum Error {
         example: String,
     },
     /// A number of a mode or a grid is not finite, or a frequency or generalised mass is not positive.
-    #[error("mode {mode}: {what} is {value}; {expected}", value = Figure(*value))]
+    #[error("mode {mode}: {what} is {value}; {expected}", value = ShortNumber(*value))]
     BadMode {
         /// Mode number.
         mode: usize,
@@ -97,7 +97,7 @@ pub enum Error {
         id: Id,
     },
     /// A grid has a coordinate that is not finite.
-    #[error("grid {id} has the coordinate {value}; positions are finite numbers in metres", value = Figure(*value))]
+    #[error("grid {id} has the coordinate {value}; positions are finite numbers in metres", value = ShortNumber(*value))]
     BadPosition {
         /// The grid.
         id: Id,
@@ -203,7 +203,7 @@ pub enum Error {
     #[error(
         "station {index} (y = {y}, z = {z}) of load reference axis \"{axis}\" lies {beyond:.4} m beyond its {end} \
          grid {grid}; at most {allowed:.4} m (5 % of the axis) are extrapolated. Assign the strip to another axis, \
-         or extend this one", y = Figure(*y), z = Figure(*z))]
+         or extend this one", y = ShortNumber(*y), z = ShortNumber(*z))]
     StationBeyondAxis {
         /// Name of the axis.
         axis: String,
@@ -226,7 +226,7 @@ pub enum Error {
     #[error("the bases have no grid in common, so no MAC can be formed; compare results of the same model")]
     NoCommonGrids,
     /// An option is out of its range.
-    #[error("{option} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{option} is {value}, expected {expected}", value = ShortNumber(*value))]
     BadOption {
         /// The option.
         option: &'static str,

@@ -1,6 +1,6 @@
 //! What can go wrong, with the numbers needed to act on it.
 
-use crate::Figure;
+use crate::ShortNumber;
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -48,7 +48,7 @@ pub enum Error {
     },
     /// The abscissae of a table do not increase strictly.
     #[error(
-        "abscissa {index} is {found}, which does not exceed its predecessor {previous}: sort the table and merge repeated points", found = Figure(*found), previous = Figure(*previous))]
+        "abscissa {index} is {found}, which does not exceed its predecessor {previous}: sort the table and merge repeated points", found = ShortNumber(*found), previous = ShortNumber(*previous))]
     NotIncreasing {
         /// Index of the offending abscissa.
         index: usize,
@@ -88,7 +88,7 @@ pub enum Error {
         what: &'static str,
     },
     /// An argument lies outside the range where a function is defined.
-    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{what} is {value}, expected {expected}", value = ShortNumber(*value))]
     Domain {
         /// The argument.
         what: &'static str,

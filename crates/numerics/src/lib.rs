@@ -15,7 +15,7 @@
 //! | [`interp`] | linear, PCHIP, not-a-knot cubic and Akima interpolation on strictly increasing points |
 //! | [`integrate`] | fixed-step RK4, and ETDRK4 with the diagonal part of the equation solved exactly |
 //! | [`special`] | Bessel functions of real argument, K0 and K1 of complex argument |
-//! | [`Figure`] | a number in a message, in few letters |
+//! | [`ShortNumber`] | a number in a message, in few letters |
 //! | [`matrix`] | row-major matrices with fast products on slices, conversions, checks |
 //!
 //! Everything is deterministic and runs on the calling thread. Inputs that are not finite, have the wrong
@@ -41,19 +41,20 @@
 
 pub mod eigen;
 mod error;
-mod figure;
+
 pub mod integrate;
 pub mod interp;
 mod kernel;
 pub mod matrix;
+mod short_number;
 pub mod solve;
 pub mod special;
 
 pub use error::{Error, Result};
 pub use faer;
 pub use faer::{Mat, MatRef};
-pub use figure::Figure;
 pub use nalgebra;
+pub use short_number::ShortNumber;
 
 /// Complex number in double precision, the element type of every complex matrix here.
 pub type C64 = num_complex::Complex<f64>;

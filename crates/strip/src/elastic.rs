@@ -10,13 +10,14 @@
 //!
 //! Equations: THEORY (21), (24), (25).
 
+use crate::Error;
+use crate::check::{ensure_finite_entries, ensure_not_negative, ensure_shape};
 use crate::forces::{
     Downwash, GeneralizedForces, Split, downwash, generalized_forces, generalized_forces_between,
 };
 use crate::kernels::Lag;
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};
-use crate::{Error, ensure_finite, ensure_finite_entries, ensure_shape};
 use albatross_numerics::{Mat, solve};
 
 /// Most states of a state matrix: one of as many takes 3.2 GB.
@@ -284,23 +285,23 @@ pub struct PiMatrices {
 pub fn pi_matrices(
     model: &AeroelasticModel,
     flow: Flow,
-    reference: &crate::quasi_steady::ReferenceShape,
+    reference: &crate::quasi_steady::ReferenceDimensions,
     q_x: &Mat<f64>,
     q_u: &Mat<f64>,
 ) -> Result<PiMatrices, Error> {
     model.check()?;
-    ensure_finite("density", flow.rho)?;
-    ensure_finite("speed", flow.speed)?;
+    ensure_not_negative("density", flow.rho)?;
+    ensure_not_negative("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let mass = model.checked_mass(rho);
     let per_mass = |right: Mat<f64>| solve::solve(mass.as_ref(), right.as_ref());
-    let dynamic_pressure = 0.5 * rho * speed * speed * reference.area * reference.chord;
+    let q_s_cbar = 0.5 * rho * speed * speed * reference.area * reference.chord;
     Ok(PiMatrices {
         pi1: per_mass(-model.checked_stiffness(flow))?,
         pi2: per_mass(rho * speed * model.forces.eta_etad() - &model.structure.damping)?,
         pi3: per_mass(rho * speed * &model.forces.eta_lambda_c)?,
-        pi4: per_mass(dynamic_pressure * q_x)?,
-        pi5: per_mass(dynamic_pressure * q_u)?,
+        pi4: per_mass(q_s_cbar * q_x)?,
+        pi5: per_mass(q_s_cbar * q_u)?,
     })
 }
 
@@ -311,8 +312,8 @@ pub fn pi_matrices(
 /// or not finite, [`Error::BadOption`] for more than 20 000 states; what [`AeroelasticModel::check`] returns.
 pub fn state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
     model.check()?;
-    ensure_finite("density", flow.rho)?;
-    ensure_finite("speed", flow.speed)?;
+    ensure_not_negative("density", flow.rho)?;
+    ensure_not_negative("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let (n, n_strips) = (model.n_modes(), model.strips.len());
     let n_states = n_states(n, model.lags.len(), n_strips)?;
@@ -383,8 +384,8 @@ fn n_states(n: usize, lags: usize, each: usize) -> Result<usize, Error> {
 /// As [`state_matrix`].
 pub fn compact_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
     model.check()?;
-    ensure_finite("density", flow.rho)?;
-    ensure_finite("speed", flow.speed)?;
+    ensure_not_negative("density", flow.rho)?;
+    ensure_not_negative("speed", flow.speed)?;
     check_compact(model)?;
     Ok(assemble_compact(model, flow)?)
 }
@@ -486,8 +487,8 @@ fn strips_of_one_chord(strips: &[Strip]) -> Vec<Vec<usize>> {
 /// As [`state_matrix`].
 pub fn quasi_steady_state_matrix(model: &AeroelasticModel, flow: Flow) -> Result<Mat<f64>, Error> {
     model.check()?;
-    ensure_finite("density", flow.rho)?;
-    ensure_finite("speed", flow.speed)?;
+    ensure_not_negative("density", flow.rho)?;
+    ensure_not_negative("speed", flow.speed)?;
     let Flow { rho, speed } = flow;
     let n = model.n_modes();
     let n_states = n_states(n, 0, 0)?;

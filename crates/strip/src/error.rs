@@ -1,13 +1,13 @@
 //! What can go wrong.
 
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of strip aerodynamics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A strip has a number that the theory cannot use.
-    #[error("strip {}: {quantity} is {value}, expected {expected}; correct the strip table", index + 1, value = Figure(*value))]
+    #[error("strip {}: {quantity} is {value}, expected {expected}; correct the strip table", index + 1, value = ShortNumber(*value))]
     BadStrip {
         /// Index of the strip, from 0.
         index: usize,
@@ -19,7 +19,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A mode has a number that the theory cannot use.
-    #[error("mode {}: {quantity} is {value}, expected {expected}; correct the modal data", index + 1, value = Figure(*value))]
+    #[error("mode {}: {quantity} is {value}, expected {expected}; correct the modal data", index + 1, value = ShortNumber(*value))]
     BadMode {
         /// Index of the mode, from 0.
         index: usize,
@@ -31,7 +31,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A lag has a number that the theory cannot use.
-    #[error("lag {}: {quantity} is {value}, expected {expected}; lags decay and take downwash away (the paper's signs)", index + 1, value = Figure(*value))]
+    #[error("lag {}: {quantity} is {value}, expected {expected}; lags decay and take downwash away (the paper's signs)", index + 1, value = ShortNumber(*value))]
     BadLag {
         /// Index of the lag, from 0.
         index: usize,
@@ -43,7 +43,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// An option or reference dimension is unusable.
-    #[error("{option} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{option} is {value}, expected {expected}", value = ShortNumber(*value))]
     BadOption {
         /// The option or dimension.
         option: &'static str,
@@ -53,7 +53,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// Density or speed is unusable.
-    #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point", value = Figure(*value))]
+    #[error("{quantity} is {value}, expected zero or a positive number; correct the flight point", value = ShortNumber(*value))]
     BadFlow {
         /// The quantity.
         quantity: &'static str,
@@ -107,7 +107,7 @@ pub enum Error {
         last_step: f64,
     },
     /// Speeds of a sweep do not increase.
-    #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1, found = Figure(*found), previous = Figure(*previous))]
+    #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1, found = ShortNumber(*found), previous = ShortNumber(*previous))]
     NotIncreasing {
         /// Index of the speed, from 0.
         index: usize,

@@ -22,9 +22,10 @@
 //!
 //! Equations: THEORY (12), (13).
 
+use crate::Error;
+use crate::check::{ensure_finite_entries, ensure_rows, ensure_shape};
 use crate::shapes::StripShapes;
 use crate::strip::{Strip, StripTheory};
-use crate::{Error, ensure_finite_entries, ensure_rows, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Which part of the flow the terms of plunge rate and pitch are booked under. Sums are identical.
@@ -151,7 +152,7 @@ fn assemble(
     }
     let apparent_mass: Vec<f64> = strips
         .iter()
-        .map(|s| theory.apparent_mass_factor * s.apparent_mass_factor())
+        .map(|s| theory.apparent_mass_factor * s.apparent_mass_per_density())
         .collect();
     let couple_inertia: Vec<f64> = strips
         .iter()
@@ -356,7 +357,7 @@ mod tests {
             Split::ApparentMass,
         )
         .unwrap();
-        let (k, m) = (s.lift_factor(), s.apparent_mass_factor());
+        let (k, m) = (s.lift_factor(), s.apparent_mass_per_density());
         let phi_34 = 0.4 - (s.x_three_quarter() - s.x_lra) * 0.15;
         let phi_m = 0.4 - (s.x_mid() - s.x_lra) * 0.15;
         let close =

@@ -15,10 +15,11 @@ mod divergence;
 mod refine;
 mod scan;
 
+use crate::Error;
+use crate::check::ensure_not_negative;
 use crate::elastic::AeroelasticModel;
 use crate::kernels::Kernel;
 use crate::operator::ModalOperator;
-use crate::{Error, ensure_finite};
 use albatross_numerics::C64;
 
 pub use divergence::{DivergencePoint, divergence_points};
@@ -62,7 +63,7 @@ pub fn neutral_points(
     rho: f64,
     kernel: Kernel<'_>,
 ) -> Result<NeutralPoints, Error> {
-    ensure_finite("density", rho)?;
+    ensure_not_negative("density", rho)?;
     let modal = ModalOperator::of(model, rho)?;
     if rho == 0.0 || modal.n_elastic() == 0 {
         return Ok(NeutralPoints::default());
@@ -93,7 +94,7 @@ pub(crate) fn lowest_onset(
     rho: f64,
     kernel: Kernel<'_>,
 ) -> Result<Option<(f64, f64)>, Error> {
-    ensure_finite("density", rho)?;
+    ensure_not_negative("density", rho)?;
     let modal = ModalOperator::of(model, rho)?;
     if rho == 0.0 || modal.n_elastic() == 0 {
         return Ok(None);

@@ -12,9 +12,10 @@
 //!
 //! Equations: THEORY (14), (15), (16).
 
+use crate::Error;
+use crate::check::{ensure_rows, ensure_shape};
 use crate::shapes::{DihedralForm, StripShapes};
 use crate::strip::Strip;
-use crate::{Error, ensure_rows, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Derivatives of the strips' lift and moment coefficients; strips x variables.
@@ -36,7 +37,7 @@ impl StripLoads {
 
 /// Reference area and chord that make the generalised forces dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct ReferenceShape {
+pub struct ReferenceDimensions {
     /// Reference area S \[m²\].
     pub area: f64,
     /// Reference chord `cbar` \[m\].
@@ -45,7 +46,7 @@ pub struct ReferenceShape {
     pub span: f64,
 }
 
-impl ReferenceShape {
+impl ReferenceDimensions {
     /// Checks what the generalised forces are divided by.
     ///
     /// # Errors
@@ -76,7 +77,7 @@ pub fn rigid_to_elastic(
     strips: &[Strip],
     test: &StripShapes,
     loads: &StripLoads,
-    reference: &ReferenceShape,
+    reference: &ReferenceDimensions,
 ) -> Result<Mat<f64>, Error> {
     ensure_rows("test shapes", &test.phi, strips.len())?;
     ensure_rows("strip lift", &loads.lift, strips.len())?;
@@ -114,7 +115,11 @@ pub struct AnalyticLift<'a> {
 /// Strip estimates: a roll rate adds the incidence `p y/V`, a pitch rate `q (x_34 - x_cg)/V`, a yaw rate changes the
 /// local speed by `-r y`, sideslip acts through dihedral and through the sweep's cosine. In the general form the arms
 /// are those of the strip's normal, so that a fin answers to roll and yaw too.
-pub fn analytic_lift(strips: &[Strip], given: &AnalyticLift<'_>, reference: &ReferenceShape) -> Mat<f64> {
+pub fn analytic_lift(
+    strips: &[Strip],
+    given: &AnalyticLift<'_>,
+    reference: &ReferenceDimensions,
+) -> Mat<f64> {
     let [x_cg, z_cg] = given.cg_xz;
     Mat::from_fn(strips.len(), 5, |j, variable| {
         let s = &strips[j];

@@ -2,8 +2,9 @@
 //!
 //! Equations: THEORY (5), (6), (7), (13).
 
+use crate::Error;
+use crate::check::{ensure_finite_entries, ensure_shape};
 use crate::strip::Strip;
-use crate::{Error, ensure_finite_entries, ensure_shape};
 use albatross_numerics::Mat;
 
 /// Shapes on the strips, one column a shape.

@@ -112,7 +112,7 @@ impl Strip {
     }
 
     /// Apparent mass per density: `m = pi b^2 dy` \[m³\].
-    pub fn apparent_mass_factor(&self) -> f64 {
+    pub fn apparent_mass_per_density(&self) -> f64 {
         PI * self.semi_chord().powi(2) * self.width
     }
 

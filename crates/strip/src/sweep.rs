@@ -16,10 +16,11 @@
 mod pk;
 mod state_space;
 
+use crate::Error;
+use crate::check::ensure_not_negative;
 use crate::elastic::AeroelasticModel;
 use crate::kernels::Kernel;
 use crate::neutral::{divergence_points, neutral_points};
-use crate::{Error, ensure_finite};
 use albatross_numerics::C64;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::f64::consts::TAU;
@@ -155,12 +156,12 @@ pub fn sweep(
     speeds: &[f64],
     method: Method,
 ) -> Result<SpeedSweep, Error> {
-    ensure_finite("density", rho)?;
+    ensure_not_negative("density", rho)?;
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Err(Error::Empty { what: "speeds" });
     };
     for (index, &found) in speeds.iter().enumerate() {
-        ensure_finite("speed", found)?;
+        ensure_not_negative("speed", found)?;
         if let Some(&previous) = index.checked_sub(1).and_then(|i| speeds.get(i))
             && found <= previous
         {

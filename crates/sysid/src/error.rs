@@ -1,6 +1,6 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -103,7 +103,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A number lies outside the range accepted.
-    #[error("{what} is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{what} is {value}, expected {expected}", value = ShortNumber(*value))]
     Domain {
         /// The number.
         what: &'static str,
@@ -144,7 +144,7 @@ pub enum Error {
     },
     /// A discrete-time pole without a real logarithm.
     #[error(
-        "the discrete pole at {pole} has no real logarithm: a pole at zero is a delay, a simple negative one can be doubled", pole = Figure(*pole))]
+        "the discrete pole at {pole} has no real logarithm: a pole at zero is a delay, a simple negative one can be doubled", pole = ShortNumber(*pole))]
     NoLogarithm {
         /// The pole in the z plane.
         pole: f64,

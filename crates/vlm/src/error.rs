@@ -1,6 +1,6 @@
 //! What can go wrong, with the names and numbers needed to act on it.
 
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -45,7 +45,7 @@ pub enum Error {
         problem: String,
     },
     /// A number of the geometry or of the flight condition is out of range.
-    #[error("{what} is {value}: {expected}", value = Figure(*value))]
+    #[error("{what} is {value}: {expected}", value = ShortNumber(*value))]
     Value {
         /// Which number.
         what: String,
@@ -122,7 +122,7 @@ pub enum Error {
     },
     /// The trim left the range of angles.
     #[error(
-        "trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached", value_deg = Figure(*value_deg), limit_deg = Figure(*limit_deg))]
+        "trim went to {variable} = {value_deg} deg, outside +-{limit_deg} deg: the targets cannot be reached", value_deg = ShortNumber(*value_deg), limit_deg = ShortNumber(*limit_deg))]
     TrimOutOfRange {
         /// Angle of attack or sideslip.
         variable: &'static str,

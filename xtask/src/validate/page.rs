@@ -31,33 +31,40 @@ pub(crate) fn inputs(root: &Path, study: &Study) -> Result<Table, Error> {
     let case = &study.inputs.case;
     let mut named = vec![
         ("f25-like/case.toml".to_owned(), "case file"),
-        (own(&case.structure.deck), "Nastran deck"),
-        (own(&case.structure.results), "SOL 103 results"),
-        (own(&case.aerodynamics.geometry), "AVL geometry"),
+        (in_case_folder(&case.structure.deck), "Nastran deck"),
+        (in_case_folder(&case.structure.results), "SOL 103 results"),
+        (in_case_folder(&case.aerodynamics.geometry), "AVL geometry"),
     ];
     if let Some((derivatives, strips)) = case.aerodynamics.files() {
-        named.push((own(derivatives), "AVL stability derivatives"));
-        named.extend(strips.iter().map(|s| (own(&s.file), "AVL strip forces")));
+        named.push((in_case_folder(derivatives), "AVL stability derivatives"));
+        named.extend(
+            strips
+                .iter()
+                .map(|s| (in_case_folder(&s.file), "AVL strip forces")),
+        );
     }
     if let Some(corrections) = &case.corrections {
         named.extend(
             corrections
                 .lift_slopes
                 .iter()
-                .map(|file| (own(file), "corrected strip slopes")),
+                .map(|file| (in_case_folder(file), "corrected strip slopes")),
         );
         named.extend(
             corrections
                 .derivatives
                 .iter()
-                .map(|file| (own(file), "corrected derivatives")),
+                .map(|file| (in_case_folder(file), "corrected derivatives")),
         );
     }
     for (name, _) in MANOEUVRES {
-        named.push((own(&format!("reference/{name}.csv")), "reference, time history"));
+        named.push((
+            in_case_folder(&format!("reference/{name}.csv")),
+            "reference, time history",
+        ));
     }
     named.push((
-        own("reference/eigenvalues.json"),
+        in_case_folder("reference/eigenvalues.json"),
         "reference, trim and eigenvalues",
     ));
     named.push(("paper/paper_tables.json".into(), "the paper's printed tables"));
@@ -75,7 +82,7 @@ pub(crate) fn inputs(root: &Path, study: &Study) -> Result<Table, Error> {
     Ok(table)
 }
 
-fn own(file: &str) -> String {
+fn in_case_folder(file: &str) -> String {
     format!("f25-like/{file}")
 }
 

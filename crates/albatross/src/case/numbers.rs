@@ -5,7 +5,7 @@
 
 use super::{Case, Damping, SignalCase};
 use albatross_flight::atmosphere::ALTITUDES;
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 use std::fmt;
 
 /// Beyond it a number of a case is a mistake, and products of such numbers overflow.
@@ -78,7 +78,7 @@ impl Case {
             .find(|(.., value, range)| !range.holds(*value))
             .map(|(table, key, value, range)| {
                 (
-                    format!("{table} {key} is {}", Figure(value)),
+                    format!("{table} {key} is {}", ShortNumber(value)),
                     format!("give {range}"),
                 )
             })

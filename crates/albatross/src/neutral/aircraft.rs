@@ -15,7 +15,7 @@ use albatross_numerics::{Mat, eigen};
 use albatross_strip::elastic::pi_matrices;
 use albatross_strip::forces::generalized_forces as strip_forces;
 use albatross_strip::kernels::JONES;
-use albatross_strip::quasi_steady::{ReferenceShape, StripLoads, rigid_to_elastic};
+use albatross_strip::quasi_steady::{ReferenceDimensions, StripLoads, rigid_to_elastic};
 use albatross_strip::{AeroelasticModel, DihedralForm, Flow, Split, StripShapes, StripTheory, Structure};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -136,8 +136,8 @@ pub fn read(text: &str, file: &str) -> Result<NeutralAircraft, NeutralError> {
 }
 
 impl NeutralAircraft {
-    fn reference(&self) -> ReferenceShape {
-        ReferenceShape {
+    fn reference(&self) -> ReferenceDimensions {
+        ReferenceDimensions {
             area: self.S,
             chord: self.cbar,
             span: self.span,

@@ -7,7 +7,7 @@
 pub mod aircraft;
 pub mod wing;
 
-use albatross_numerics::{C64, Figure, Mat, matrix};
+use albatross_numerics::{C64, Mat, ShortNumber, matrix};
 use albatross_strip::{GeneralizedForces, StripShapes, forces::Downwash};
 use serde_json::{Value, json};
 
@@ -40,7 +40,7 @@ pub enum NeutralError {
         expected: String,
     },
     /// A value that cannot be used.
-    #[error("{file}: `{key}` is {value}, expected {expected}", value = Figure(*value))]
+    #[error("{file}: `{key}` is {value}, expected {expected}", value = ShortNumber(*value))]
     Value {
         /// File.
         file: String,

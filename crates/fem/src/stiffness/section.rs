@@ -1,7 +1,7 @@
 //! Section constants of bars and beams along their length.
 
 use albatross_nastran::deck::{BarProperty, BeamProperty, Id, Pbar, Pbeam, Pbeaml, Section, SectionShape};
-use albatross_numerics::Figure;
+use albatross_numerics::ShortNumber;
 
 use crate::context::Context;
 use crate::error::Error;
@@ -48,8 +48,8 @@ pub(super) fn moduli(context: &Context<'_>, name: &str, id: Id, mid: Id) -> Resu
         mid,
         format!(
             "its moduli are E = {}, G = {}; expected numbers that are not negative",
-            Figure(e),
-            Figure(g)
+            ShortNumber(e),
+            ShortNumber(g)
         ),
     ))
 }

@@ -8,7 +8,7 @@ use albatross_flight::{
 use albatross_numerics::Mat;
 use albatross_strip::forces::generalized_forces;
 use albatross_strip::kernels::{JONES, Lag};
-use albatross_strip::quasi_steady::{ReferenceShape, StripLoads, rigid_to_elastic};
+use albatross_strip::quasi_steady::{ReferenceDimensions, StripLoads, rigid_to_elastic};
 use albatross_strip::{AeroelasticModel, DihedralForm, Split, Strip, StripShapes, StripTheory, Structure};
 
 pub(crate) const G: f64 = 9.80665;
@@ -41,7 +41,7 @@ pub(crate) fn transport() -> Aircraft {
         mass: 60_000.0,
         inertia: [[1.2e6, 0.0, -4.0e4], [0.0, 3.0e6, 0.0], [-4.0e4, 0.0, 4.0e6]],
         gravity: G,
-        reference: ReferenceShape {
+        reference: ReferenceDimensions {
             area: 120.0,
             chord: 4.0,
             span: 34.0,

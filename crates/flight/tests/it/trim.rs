@@ -48,7 +48,7 @@ fn val_small_aircraft_trims() {
     let mut aircraft = transport();
     aircraft.mass = 1.5;
     aircraft.inertia = [[0.02, 0.0, 0.0], [0.0, 4e-6, 0.0], [0.0, 0.0, 0.03]];
-    aircraft.reference = albatross_strip::quasi_steady::ReferenceShape {
+    aircraft.reference = albatross_strip::quasi_steady::ReferenceDimensions {
         area: 0.4,
         chord: 0.2,
         span: 2.0,

@@ -1,9 +1,10 @@
 //! Neutral points of motion without oscillation: divergence.
 
+use crate::Error;
+use crate::check::ensure_not_negative;
 use crate::elastic::AeroelasticModel;
 use crate::kernels::Kernel;
 use crate::operator::{Operator, frequencies};
-use crate::{Error, ensure_finite};
 use albatross_numerics::{C64, Mat, eigen};
 
 /// A speed at which the static aeroelastic stiffness `K - rho V^2 Q_eta` is singular.
@@ -29,7 +30,7 @@ pub fn divergence_points(
     rho: f64,
     kernel: Kernel<'_>,
 ) -> Result<Vec<DivergencePoint>, Error> {
-    ensure_finite("density", rho)?;
+    ensure_not_negative("density", rho)?;
     model.check()?;
     let (squares, modes) =
         eigen::symmetric_generalized(model.structure.stiffness.as_ref(), model.structure.mass.as_ref())?;

@@ -9,7 +9,7 @@ use albatross_strip::forces::{Downwash, downwash, generalized_forces};
 use albatross_strip::kernels::Kernel;
 use albatross_strip::kernels::{JONES, Lag};
 use albatross_strip::neutral::{divergence_points, neutral_points};
-use albatross_strip::quasi_steady::{ReferenceShape, StripLoads, rigid_to_elastic};
+use albatross_strip::quasi_steady::{ReferenceDimensions, StripLoads, rigid_to_elastic};
 use albatross_strip::section::TypicalSection;
 use albatross_strip::sweep::{Method, sweep};
 use albatross_strip::{
@@ -156,7 +156,7 @@ fn prop_sizes_that_differ() {
         lift: Mat::zeros(3, 2),
         moment: Mat::zeros(3, 1),
     };
-    let reference = ReferenceShape {
+    let reference = ReferenceDimensions {
         area: 1.0,
         chord: 1.0,
         span: 1.0,
@@ -169,7 +169,7 @@ fn prop_sizes_that_differ() {
             ..
         })
     ));
-    let flat = ReferenceShape {
+    let flat = ReferenceDimensions {
         area: 0.0,
         ..reference
     };
@@ -239,7 +239,7 @@ fn prop_bad_options() {
 #[test]
 fn prop_bad_flow() {
     let model = invented(0, 3, 2, 0.0);
-    let reference = ReferenceShape {
+    let reference = ReferenceDimensions {
         area: 1.0,
         chord: 1.0,
         span: 1.0,
@@ -310,7 +310,7 @@ fn regress_chords_of_no_scale_are_refused() {
 fn answers(model: &AeroelasticModel) -> Vec<(&'static str, Result<(), Error>)> {
     let (rho, speed) = (1.2, 30.0);
     let flow = Flow { rho, speed };
-    let reference = ReferenceShape {
+    let reference = ReferenceDimensions {
         area: 1.0,
         chord: 1.0,
         span: 1.0,
