@@ -11,7 +11,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Albatross(#[from] albatross::Error),
     /// From a solver that does not know the file.
-    #[error("{file}: {source}")]
+    #[error("{}", with_file(file, source))]
     Solver {
         /// File.
         file: String,
@@ -73,6 +73,15 @@ impl From<albatross::lti::Error> for Failure {
     fn from(error: albatross::lti::Error) -> Self {
         Self::Albatross(error.into())
     }
+}
+
+/// The message under the name of its file, unless it begins with a line of it.
+fn with_file(file: &str, source: &albatross::Error) -> String {
+    let message = source.to_string();
+    if message.starts_with(&format!("{file}:")) {
+        return message;
+    }
+    format!("{file}: {message}")
 }
 
 /// Prints to standard output.

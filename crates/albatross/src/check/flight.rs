@@ -75,11 +75,11 @@ fn mach(subject: &Subject, files: &Files, found: &mut Findings) {
         found.note(
             &file,
             format!(
-                "AVL ran at Mach {run}, the flight is at {mach:.4}: as it should be if Mach times the cosine of the sweep \
-                 ({normal:.3} with the wing's {:.0} deg) is meant",
+                "AVL ran at Mach {run}, the flight is at {mach:.4}: Mach times the cosine of the sweep is {normal:.3} with the \
+                 wing's {:.0} deg, which the method's paper takes",
                 sweep.to_degrees()
             ),
-            "",
+            "AVL knows the sweep from the geometry: at the Mach number of the flight it gives the whole lift slope",
         );
     } else if (run - mach).abs() > 0.05 {
         let cure = if subject.case.aerodynamics.results.as_deref() == Some(SOLVE) {
