@@ -96,16 +96,6 @@ pub enum Error {
         /// What was expected, and the cure.
         expected: String,
     },
-    /// A search did not converge.
-    #[error("{what} did not converge after {iterations} iterations (last step {last_step:e})")]
-    NotConverged {
-        /// The search.
-        what: &'static str,
-        /// Iterations made.
-        iterations: usize,
-        /// Size of the last step, relative.
-        last_step: f64,
-    },
     /// Speeds of a sweep do not increase.
     #[error("speed {} of the sweep is {found}, which does not exceed the one before, {previous}; sort the speeds and merge repeated ones", index + 1, found = ShortNumber(*found), previous = ShortNumber(*previous))]
     NotIncreasing {
